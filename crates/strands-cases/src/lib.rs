@@ -1,0 +1,1 @@
+//! Named problems with reference answers.

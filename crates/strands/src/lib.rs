@@ -1,0 +1,7 @@
+#![doc = "Strands: thin elastic solids as Cosserat rods."]
+
+pub mod coupling;
+pub mod load;
+pub mod math;
+pub mod rod;
+pub mod statics;

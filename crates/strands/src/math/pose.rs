@@ -1,0 +1,161 @@
+//! Poses: the group SE(3) of frames `(R, p)`, its exponential, logarithm and tangent.
+
+use super::{Mat3, Mat6, Quat, Real, Vec3, Vec6, exp_coefficients};
+
+/// A frame: an orientation whose columns are the directors, and a position, m.
+#[derive(Clone, Copy, Debug, PartialEq)]
+#[repr(C)]
+pub struct Pose<R = f64> {
+    /// Orientation, body to world.
+    pub rotation: Mat3<R>,
+    /// Position in the world, m.
+    pub position: Vec3<R>,
+}
+
+impl Pose<f64> {
+    /// The world frame.
+    pub const IDENTITY: Self = Self { rotation: Mat3::IDENTITY, position: Vec3::ZERO };
+
+    /// A frame from its position and quaternion.
+    pub fn from_parts(position: Vec3, orientation: Quat) -> Self {
+        Self { rotation: orientation.to_matrix(), position }
+    }
+
+    /// The orientation as a quaternion.
+    pub fn orientation(&self) -> Quat {
+        Quat::from_matrix(self.rotation)
+    }
+
+    /// The logarithm: the constant strain that leads from the identity to this pose over unit length, its angle at most π.
+    /// Accurate to round-off for every angle; at exactly half a turn one of the two axes is taken.
+    pub fn log(&self) -> Vec6 {
+        let u = Quat::from_matrix(self.rotation).to_rotation_vector();
+        let (_, d, _) = inverse_coefficients(u.dot(u));
+        let p = self.position;
+        let up = u.cross(p);
+        Vec6::new(u, p - up * 0.5 + u.cross(up) * d)
+    }
+
+    /// Whether every number is finite.
+    pub fn is_finite(&self) -> bool {
+        self.rotation.is_finite() && self.position.is_finite()
+    }
+
+    /// The same pose in every lane.
+    #[inline(always)]
+    pub fn splat<R: Real>(self) -> Pose<R> {
+        Pose { rotation: self.rotation.splat(), position: self.position.splat() }
+    }
+}
+
+impl<R: Real> Pose<R> {
+    /// The exponential: where the constant strain `x` leads over unit length ((12)–(15) of the paper).
+    #[inline(always)]
+    pub fn exp(x: Vec6<R>) -> Self {
+        let (u, v) = (x.angular, x.linear);
+        let t = u.dot(u);
+        let k = exp_coefficients(t);
+        let a = R::one() - t * k.c;
+        let cos = R::one() - t * k.b;
+        // exp û = cos θ + a û + b u uᵀ, which saves forming û².
+        let (bu, au) = (u * k.b, u * a);
+        let rotation = Mat3::from_cols(
+            Vec3::new(cos + bu.x * u.x, bu.x * u.y + au.z, bu.x * u.z - au.y),
+            Vec3::new(bu.x * u.y - au.z, cos + bu.y * u.y, bu.y * u.z + au.x),
+            Vec3::new(bu.x * u.z + au.y, bu.y * u.z - au.x, cos + bu.z * u.z),
+        );
+        let uv = u.cross(v);
+        Self { rotation, position: v + uv * k.b + u.cross(uv) * k.c }
+    }
+
+    /// The product `self · other`: `other` given in this frame.
+    #[inline(always)]
+    pub fn compose(&self, other: &Self) -> Self {
+        Self {
+            rotation: self.rotation * other.rotation,
+            position: self.rotation * other.position + self.position,
+        }
+    }
+
+    /// The inverse.
+    #[inline(always)]
+    pub fn inverse(&self) -> Self {
+        let rotation = self.rotation.transpose();
+        Self { rotation, position: -(rotation * self.position) }
+    }
+
+    /// `self⁻¹ · other`: `other` as seen from this frame.
+    #[inline(always)]
+    pub fn between(&self, other: &Self) -> Self {
+        Self {
+            rotation: self.rotation.transpose() * other.rotation,
+            position: self.rotation.transpose_mul(other.position - self.position),
+        }
+    }
+
+    /// `Ad x`: a variation of the frame at the far end of this pose, as one of the frame at its near end.
+    #[inline(always)]
+    pub fn adjoint(&self, x: Vec6<R>) -> Vec6<R> {
+        let angular = self.rotation * x.angular;
+        Vec6::new(angular, self.rotation * x.linear + self.position.cross(angular))
+    }
+
+    /// `Ad⁻ᵀ w`: a wrench at the far end of this pose, moved to and expressed in the frame at its near end.
+    #[inline(always)]
+    pub fn carry_wrench(&self, w: Vec6<R>) -> Vec6<R> {
+        let force = self.rotation * w.linear;
+        Vec6::new(self.rotation * w.angular + self.position.cross(force), force)
+    }
+}
+
+/// The tangent of the exponential `T(x) = Σ (−1)^k/(k+1)! ad_x^k`: `d exp(x) = exp(x) (T(x) dx)^`.
+pub fn tangent(x: Vec6) -> Mat6 {
+    let (u, v) = (x.angular, x.linear);
+    let k = exp_coefficients(u.dot(u));
+    let (uh, vh) = (Mat3::hat(u), Mat3::hat(v));
+    let (u2, uv2) = (uh * uh, uh * vh + vh * uh);
+    let twice = 2.0 * u.dot(v);
+    let diagonal = Mat3::IDENTITY - uh.scaled(k.b) + u2.scaled(k.c);
+    let coupling = uv2.scaled(k.c) - vh.scaled(k.b) + (u2.scaled(k.dc) - uh.scaled(k.db)).scaled(twice);
+    Mat6 { blocks: [[diagonal, Mat3::ZERO], [coupling, diagonal]] }
+}
+
+/// The inverse of [`tangent`], `T(x)⁻¹ = 1 + ½ ad + d ad² + …`. Singular at a full turn only.
+pub fn tangent_inverse(x: Vec6) -> Mat6 {
+    let (u, v) = (x.angular, x.linear);
+    let (_, d, dd) = inverse_coefficients(u.dot(u));
+    let (uh, vh) = (Mat3::hat(u), Mat3::hat(v));
+    let (u2, uv2) = (uh * uh, uh * vh + vh * uh);
+    let diagonal = Mat3::IDENTITY + uh.scaled(0.5) + u2.scaled(d);
+    let coupling = vh.scaled(0.5) + uv2.scaled(d) + u2.scaled(2.0 * u.dot(v) * dd);
+    Mat6 { blocks: [[diagonal, Mat3::ZERO], [coupling, diagonal]] }
+}
+
+/// `(θ, d, dd/dt)` with `d(t) = (1 − (θ/2) cot(θ/2))/θ²`, `t = θ²`.
+fn inverse_coefficients(t: f64) -> (f64, f64, f64) {
+    let theta = t.sqrt();
+    if t < 0.3 {
+        // |B₂ₖ|/(2k)!, the Bernoulli series of (θ/2) cot(θ/2).
+        const D: [f64; 9] = [
+            1.0 / 12.0,
+            1.0 / 720.0,
+            1.0 / 30240.0,
+            1.0 / 1_209_600.0,
+            1.0 / 47_900_160.0,
+            691.0 / 1_307_674_368_000.0,
+            1.0 / 74_724_249_600.0,
+            3617.0 / 10_670_622_842_880_000.0,
+            43867.0 / 5_109_094_217_170_944_000.0,
+        ];
+        let value = D.iter().rev().fold(0.0, |sum, a| sum * t + a);
+        let slope = (1..9).rev().fold(0.0, |sum, k| sum * t + k as f64 * D[k]);
+        return (theta, value, slope);
+    }
+    let half = 0.5 * theta;
+    let (sin, cos) = (libm::sin(half), libm::cos(half));
+    let y = half * cos / sin;
+    let d = (1.0 - y) / t;
+    // dy/dθ = ½ (cot − half/sin²); dθ/dt = 1/(2θ).
+    let dy = 0.5 * (cos / sin - half / (sin * sin)) / (2.0 * theta);
+    (theta, d, (-dy - d) / t)
+}

@@ -1,0 +1,130 @@
+//! The coefficients of the exponential on SO(3) and SE(3), as functions of `t = θ²`.
+//!
+//! With `b(t) = (1 − cos θ)/θ²` and `c(t) = (θ − sin θ)/θ³` every map that the rod needs is a polynomial in `û`, `v̂`:
+//! `exp û = 1 + (1 − t c) û + b û²`, the tangent `1 − b û + c û²`, and the coupling of turn and shift enters through `b'`
+//! and `c'` alone (the minimal polynomial of `ad` on se(3) is `z (z² + θ²)²`; Selig 2005, ch. 4; Sonneville et al. 2014).
+//! Up to one radian an element they are sums of eight terms, exact to round-off and the same on every target; beyond, they
+//! come from sine and cosine.
+
+use super::Real;
+
+/// Up to this `θ²` the power series is used: eight terms are then exact to round-off (`1/18! < 2⁻⁵²`).
+const SERIES_LIMIT: f64 = 1.0;
+
+/// `b`, `c` and their derivatives by `t = θ²`.
+#[derive(Clone, Copy, Debug)]
+pub struct ExpCoefficients<R = f64> {
+    /// `(1 − cos θ)/θ²`.
+    pub b: R,
+    /// `(θ − sin θ)/θ³`.
+    pub c: R,
+    /// `db/dt`.
+    pub db: R,
+    /// `dc/dt`.
+    pub dc: R,
+}
+
+/// `Σ (−1)^k falling(k, derivative) t^(k − derivative) / (2k + first)!`, as its eight coefficients.
+const fn coefficients(first: u32, derivative: u32) -> [f64; 8] {
+    let mut out = [0.0; 8];
+    let mut i = 0;
+    while i < 8 {
+        let k = i as u32 + derivative;
+        let mut factorial = 1.0;
+        let mut j = 2;
+        while j <= 2 * k + first {
+            factorial *= j as f64;
+            j += 1;
+        }
+        let mut numerator = if k.is_multiple_of(2) { 1.0 } else { -1.0 };
+        let mut d = 0;
+        while d < derivative {
+            numerator *= (k - d) as f64;
+            d += 1;
+        }
+        out[i] = numerator / factorial;
+        i += 1;
+    }
+    out
+}
+
+const B: [f64; 8] = coefficients(2, 0);
+const C: [f64; 8] = coefficients(3, 0);
+const DB: [f64; 8] = coefficients(2, 1);
+const DC: [f64; 8] = coefficients(3, 1);
+const DDB: [f64; 8] = coefficients(2, 2);
+const DDC: [f64; 8] = coefficients(3, 2);
+
+/// Evaluates by Estrin's scheme: three levels of latency in place of seven.
+#[inline(always)]
+fn polynomial<R: Real>(a: &[f64; 8], t: R, t2: R, t4: R) -> R {
+    let pair = |i: usize| R::splat(a[i]) + R::splat(a[i + 1]) * t;
+    (pair(0) + pair(2) * t2) + (pair(4) + pair(6) * t2) * t4
+}
+
+/// The coefficients at `t = θ²`.
+#[inline(always)]
+pub fn exp_coefficients<R: Real>(t: R) -> ExpCoefficients<R> {
+    let small = t.at_most(SERIES_LIMIT);
+    let (t2, t4) = (t * t, (t * t) * (t * t));
+    let series = ExpCoefficients {
+        b: polynomial(&B, t, t2, t4),
+        c: polynomial(&C, t, t2, t4),
+        db: polynomial(&DB, t, t2, t4),
+        dc: polynomial(&DC, t, t2, t4),
+    };
+    if R::all(small) { series } else { with_large_angles(t, small, series) }
+}
+
+/// The second derivatives of `b` and `c` by `t`, at `t = θ²`.
+#[inline(always)]
+pub fn exp_coefficients_second<R: Real>(t: R) -> (R, R) {
+    let small = t.at_most(SERIES_LIMIT);
+    let (t2, t4) = (t * t, (t * t) * (t * t));
+    let series = (polynomial(&DDB, t, t2, t4), polynomial(&DDC, t, t2, t4));
+    if R::all(small) {
+        return series;
+    }
+    (
+        R::select(small, series.0, t.map(|t| (exact(t).ddb, f64::NAN))),
+        R::select(small, series.1, t.map(|t| (exact(t).ddc, f64::NAN))),
+    )
+}
+
+#[cold]
+#[inline(never)]
+fn with_large_angles<R: Real>(t: R, small: R::Mask, series: ExpCoefficients<R>) -> ExpCoefficients<R> {
+    let exactly = |pick: fn(Exact) -> (f64, f64)| t.map(move |t| pick(exact(t)));
+    ExpCoefficients {
+        b: R::select(small, series.b, exactly(|e| (e.b, e.db))),
+        c: R::select(small, series.c, exactly(|e| (e.c, e.dc))),
+        db: R::select(small, series.db, exactly(|e| (e.db, e.ddb))),
+        dc: R::select(small, series.dc, exactly(|e| (e.dc, e.ddc))),
+    }
+}
+
+struct Exact {
+    b: f64,
+    c: f64,
+    db: f64,
+    dc: f64,
+    ddb: f64,
+    ddc: f64,
+}
+
+/// From sine and cosine; accurate for `t` of order one and more, where nothing cancels.
+fn exact(t: f64) -> Exact {
+    let t = t.abs();
+    let theta = t.sqrt();
+    let (sin, cos) = (libm::sin(theta), libm::cos(theta));
+    let (sinc, b) = (sin / theta, (1.0 - cos) / t);
+    let c = (1.0 - sinc) / t;
+    // d(sinc)/dt and d(cos)/dt follow from dθ/dt = 1/(2θ).
+    let dsinc = (cos - sinc) / (2.0 * t);
+    let db = (0.5 * sinc - b) / t;
+    let dc = (-dsinc - c) / t;
+    let ddsinc = (-0.5 * sinc - dsinc) / (2.0 * t) - dsinc / t;
+    let ddb = (0.5 * dsinc - 2.0 * db) / t;
+    let ddc = (-ddsinc - 2.0 * dc) / t;
+    Exact { b, c, db, dc, ddb, ddc }
+}

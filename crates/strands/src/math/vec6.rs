@@ -1,0 +1,155 @@
+//! Pairs of an angular and a linear part: strains `(u, v)`, stresses `(m, n)`, wrenches, and variations of a frame.
+
+use super::{Real, Vec3};
+use core::ops::{Add, AddAssign, Mul, Neg, Sub, SubAssign};
+
+/// An angular and a linear vector, angular part first.
+#[derive(Clone, Copy, Debug, PartialEq)]
+#[repr(C)]
+pub struct Vec6<R = f64> {
+    /// Curvature and twist `u`, moment `m`, or turn.
+    pub angular: Vec3<R>,
+    /// Stretch and shear `v`, force `n`, or shift.
+    pub linear: Vec3<R>,
+}
+
+/// Strain `ε = (u, v)` in the material frame: `u = (κ1, κ2, τ)` in 1/m, `v` dimensionless.
+pub type Strain<R = f64> = Vec6<R>;
+/// Stress `σ = (m, n)` in the material frame, N·m and N: what the part beyond exerts on the part before.
+pub type Stress<R = f64> = Vec6<R>;
+/// A moment and a force, N·m and N.
+pub type Wrench<R = f64> = Vec6<R>;
+
+impl Vec6<f64> {
+    /// All zero.
+    pub const ZERO: Self = Self::new(Vec3::ZERO, Vec3::ZERO);
+
+    /// The same in every lane.
+    #[inline(always)]
+    pub fn splat<R: Real>(self) -> Vec6<R> {
+        Vec6::new(self.angular.splat(), self.linear.splat())
+    }
+
+    /// The components, angular first.
+    pub const fn to_array(self) -> [f64; 6] {
+        [self.angular.x, self.angular.y, self.angular.z, self.linear.x, self.linear.y, self.linear.z]
+    }
+
+    /// The largest component in magnitude.
+    pub fn max_abs(self) -> f64 {
+        self.angular.max_abs().max(self.linear.max_abs())
+    }
+
+    /// Whether every component is finite.
+    pub fn is_finite(self) -> bool {
+        self.angular.is_finite() && self.linear.is_finite()
+    }
+}
+
+impl From<[f64; 6]> for Vec6<f64> {
+    fn from(a: [f64; 6]) -> Self {
+        Self::new(Vec3::new(a[0], a[1], a[2]), Vec3::new(a[3], a[4], a[5]))
+    }
+}
+
+impl<R> Vec6<R> {
+    /// A pair from its parts.
+    #[inline(always)]
+    pub const fn new(angular: Vec3<R>, linear: Vec3<R>) -> Self {
+        Self { angular, linear }
+    }
+}
+
+impl<R: Real> Vec6<R> {
+    /// All zero.
+    #[inline(always)]
+    pub fn zero() -> Self {
+        Self::new(Vec3::zero(), Vec3::zero())
+    }
+
+    /// Scalar product.
+    #[inline(always)]
+    pub fn dot(self, o: Self) -> R {
+        self.angular.dot(o.angular) + self.linear.dot(o.linear)
+    }
+
+    /// Component by component product.
+    #[inline(always)]
+    pub fn scale(self, o: Self) -> Self {
+        Self::new(self.angular.scale(o.angular), self.linear.scale(o.linear))
+    }
+
+    /// `ad_self other`, the Lie bracket of se(3).
+    #[inline(always)]
+    pub fn bracket(self, o: Self) -> Self {
+        Self::new(
+            self.angular.cross(o.angular),
+            self.linear.cross(o.angular) + self.angular.cross(o.linear),
+        )
+    }
+
+    /// `−ad_selfᵀ wrench = (u×m + v×n, u×n)`: how fast a wrench changes in the material frame when it is carried
+    /// backwards along the strain `self` (the homogeneous part of the balance equations, (5) of the paper).
+    #[inline(always)]
+    pub fn coadjoint(self, wrench: Self) -> Self {
+        Self::new(
+            self.angular.cross(wrench.angular) + self.linear.cross(wrench.linear),
+            self.angular.cross(wrench.linear),
+        )
+    }
+
+    /// `yes` where the mask is set, `no` elsewhere.
+    #[inline(always)]
+    pub fn select(mask: R::Mask, yes: Self, no: Self) -> Self {
+        Self::new(
+            Vec3::select(mask, yes.angular, no.angular),
+            Vec3::select(mask, yes.linear, no.linear),
+        )
+    }
+}
+
+impl<R: Real> Add for Vec6<R> {
+    type Output = Self;
+    #[inline(always)]
+    fn add(self, o: Self) -> Self {
+        Self::new(self.angular + o.angular, self.linear + o.linear)
+    }
+}
+
+impl<R: Real> Sub for Vec6<R> {
+    type Output = Self;
+    #[inline(always)]
+    fn sub(self, o: Self) -> Self {
+        Self::new(self.angular - o.angular, self.linear - o.linear)
+    }
+}
+
+impl<R: Real> Mul<R> for Vec6<R> {
+    type Output = Self;
+    #[inline(always)]
+    fn mul(self, k: R) -> Self {
+        Self::new(self.angular * k, self.linear * k)
+    }
+}
+
+impl<R: Real> Neg for Vec6<R> {
+    type Output = Self;
+    #[inline(always)]
+    fn neg(self) -> Self {
+        Self::new(-self.angular, -self.linear)
+    }
+}
+
+impl<R: Real> AddAssign for Vec6<R> {
+    #[inline(always)]
+    fn add_assign(&mut self, o: Self) {
+        *self = *self + o;
+    }
+}
+
+impl<R: Real> SubAssign for Vec6<R> {
+    #[inline(always)]
+    fn sub_assign(&mut self, o: Self) {
+        *self = *self - o;
+    }
+}

@@ -1,0 +1,65 @@
+//! A two-point boundary value problem: a rod, what acts on it, and how its two ends are held.
+
+use crate::coupling::Grip;
+use crate::load::NodalLoads;
+use crate::math::Pose;
+use crate::rod::Rod;
+
+/// How one end is held.
+///
+/// The six freedoms are, in this order: the turns about the held frame's `d1` and `d2` (the tangent's direction), the turn
+/// about its `d3` (twist), and the shifts along the world's x, y and z. What is not fixed is free, and then sees the loads
+/// at that end and the wrench of the grip, if there is one.
+#[derive(Clone, Debug, PartialEq)]
+pub struct End {
+    /// Which freedoms are fixed.
+    pub fixed: [bool; 6],
+    /// The frame they are fixed to.
+    pub pose: Pose,
+    /// A hand that holds this end through a spring and damper. At the rod's end only.
+    pub grip: Option<Grip>,
+}
+
+impl End {
+    /// Everything fixed: a clamp.
+    pub fn clamped(pose: Pose) -> Self {
+        Self { fixed: [true; 6], pose, grip: None }
+    }
+
+    /// Nothing fixed. The pose is where a search may start.
+    pub fn free(pose: Pose) -> Self {
+        Self { fixed: [false; 6], pose, grip: None }
+    }
+
+    /// Only the position fixed: a ball joint.
+    pub fn pinned(pose: Pose) -> Self {
+        Self { fixed: [false, false, false, true, true, true], pose, grip: None }
+    }
+
+    /// Held by a hand through a virtual coupling.
+    pub fn gripped(grip: Grip) -> Self {
+        Self { fixed: [false; 6], pose: grip.hand, grip: Some(grip) }
+    }
+}
+
+/// A rod, its loads and its two ends.
+#[derive(Clone, Debug)]
+pub struct Problem {
+    /// The rod.
+    pub rod: Rod,
+    /// What acts on its nodes, the two ends' nodes too.
+    pub loads: NodalLoads,
+    /// How the start, `s = 0`, is held.
+    pub start: End,
+    /// How the end, `s = L`, is held.
+    pub end: End,
+}
+
+impl Problem {
+    /// A rod clamped at its base frame, its other end free, nothing acting on it.
+    pub fn cantilever(rod: Rod) -> Self {
+        let loads = NodalLoads::none(&rod);
+        let base = rod.description().base;
+        Self { rod, loads, start: End::clamped(base), end: End::free(base) }
+    }
+}

@@ -1,0 +1,211 @@
+//! What a solve gives: the shape, the stress, the reactions, and a report of how it went.
+
+use crate::math::{Pose, Strain, Stress, Vec3, Wrench};
+use thiserror::Error;
+
+/// Which solver made a solution.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub enum Method {
+    /// The one that fits: the sweeps where they suffice, shooting elsewhere.
+    #[default]
+    Auto,
+    /// Two sweeps: the standard boundary value problem of the paper, one end clamped and the wrench at the other given.
+    Sweep,
+    /// A search for the unknown half of the frame and wrench at the end.
+    Shooting,
+}
+
+impl Method {
+    /// Its name in scene files and answers.
+    pub const fn name(self) -> &'static str {
+        match self {
+            Self::Auto => "auto",
+            Self::Sweep => "sweep",
+            Self::Shooting => "shooting",
+        }
+    }
+}
+
+/// How the Jacobian of the shooting residual is found. All give the same solution.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub enum Jacobian {
+    /// The linearised recurrence, its six columns in SIMD lanes.
+    #[default]
+    VariationalLanes,
+    /// The linearised recurrence, one column after the other.
+    Variational,
+    /// Differences of perturbed marches, as in the paper.
+    FiniteDifferences,
+    /// Differences of perturbed marches that run side by side in SIMD lanes.
+    FiniteDifferenceLanes,
+}
+
+/// How to solve.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Settings {
+    /// Which solver.
+    pub method: Method,
+    /// How the Jacobian is found.
+    pub jacobian: Jacobian,
+    /// The residual at which a solution is accepted: turns in rad, shifts over the rod's length, forces and moments over
+    /// `EI/L²` and `EI/L`.
+    pub tolerance: f64,
+    /// How many Newton iterations one search may take.
+    pub max_iterations: usize,
+    /// How many times a failed search may halve its step on the way from the last solution, or from rest.
+    pub max_halvings: usize,
+}
+
+impl Default for Settings {
+    fn default() -> Self {
+        Self {
+            method: Method::Auto,
+            jacobian: Jacobian::default(),
+            tolerance: 1e-9,
+            max_iterations: 40,
+            max_halvings: 12,
+        }
+    }
+}
+
+/// The frame and the wrench at the rod's end: all that a solution is known by, and where the next search starts.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Guess {
+    /// The frame at `s = L`.
+    pub pose: Pose,
+    /// The internal wrench at `s = L`, in that frame, N·m and N.
+    pub wrench: Wrench,
+}
+
+/// What a support exerts on the rod.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Reaction {
+    /// Where, m.
+    pub s: f64,
+    /// Force, world axes, N.
+    pub force: Vec3,
+    /// Moment about the node, world axes, N·m.
+    pub moment: Vec3,
+}
+
+/// Energies, J.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct Energy {
+    /// Stored in the rod.
+    pub elastic: f64,
+    /// Of the dead forces: minus force times position.
+    pub load: f64,
+}
+
+/// How a solve went.
+#[derive(Clone, Debug, PartialEq)]
+pub struct SolveReport {
+    /// Which solver made it.
+    pub method: Method,
+    /// Newton iterations.
+    pub iterations: usize,
+    /// The last residual, dimensionless as in [`Settings::tolerance`].
+    pub residual: f64,
+    /// The residual at each iteration.
+    pub residual_history: Vec<f64>,
+    /// How often the line search cut a step.
+    pub line_search_cuts: usize,
+    /// Sweeps along the rod.
+    pub sweeps: usize,
+    /// Jacobians.
+    pub jacobians: usize,
+    /// Steps on the way from the last solution or from rest; 1 where the search converged at once.
+    pub path_steps: usize,
+    /// How many ways there are to lower the energy: conjugate points along the rod. `None` where the loads have no potential (follower
+    /// loads) or the count does not apply.
+    pub morse_index: Option<usize>,
+}
+
+impl Default for SolveReport {
+    fn default() -> Self {
+        Self {
+            method: Method::Auto,
+            iterations: 0,
+            residual: f64::INFINITY,
+            residual_history: Vec::new(),
+            line_search_cuts: 0,
+            sweeps: 0,
+            jacobians: 0,
+            path_steps: 0,
+            morse_index: None,
+        }
+    }
+}
+
+/// An equilibrium.
+#[derive(Clone, Debug)]
+pub struct Solution {
+    /// Frames of the nodes.
+    pub poses: Vec<Pose>,
+    /// Strains of the elements (the mean of the two points for order 4), body frame.
+    pub strain: Vec<Strain>,
+    /// Stresses of the elements (the mean of the two points for order 4), body frame.
+    pub stress: Vec<Stress>,
+    /// What holds the start and the end.
+    pub reactions: [Reaction; 2],
+    /// Its energies.
+    pub energy: Energy,
+    /// The frame and wrench at the end.
+    pub guess: Guess,
+    /// How the solve went.
+    pub report: SolveReport,
+}
+
+/// Why a solve gave no equilibrium.
+#[derive(Clone, Debug, Error, PartialEq)]
+pub enum FailureReason {
+    /// The ends are further apart than an inextensible rod is long.
+    #[error(
+        "out of reach: the ends are {distance:.6} m apart and the inextensible rod is {length:.6} m long; bring the ends \
+         nearer, or let the rod stretch (kinematics = \"cosserat\")"
+    )]
+    OutOfReach {
+        /// Distance of the ends, m.
+        distance: f64,
+        /// Length of the rod, m.
+        length: f64,
+    },
+    /// The search stopped short.
+    #[error(
+        "no equilibrium found: the residual stays at {residual:.3e} (tolerance {tolerance:.1e}) after {iterations} iterations; \
+         start nearer to the solution, use more elements, or relax the tolerance"
+    )]
+    NotConverged {
+        /// The smallest residual reached.
+        residual: f64,
+        /// The tolerance asked for.
+        tolerance: f64,
+        /// Iterations made.
+        iterations: usize,
+    },
+    /// The supports leave the rod free to move as a whole, or the problem is singular there.
+    #[error("the problem is singular: the supports may leave the rod free to move or turn as a whole; fix more of its ends")]
+    Singular,
+    /// The method that was asked for does not solve this kind of problem.
+    #[error("the sweep needs one end clamped and the other free: {what}; use method = \"shooting\" or \"auto\"")]
+    NotStandard {
+        /// What is not as it should be.
+        what: &'static str,
+    },
+    /// A number became infinite or NaN.
+    #[error("the numbers overflowed at node {node}: the loads may be far too large for the rod's stiffness")]
+    NotFinite {
+        /// The node nearest the end where it was first seen.
+        node: usize,
+    },
+}
+
+/// A solve without an equilibrium: why, and how far it got.
+#[derive(Clone, Debug, Error)]
+#[error("{reason}")]
+pub struct SolveFailure {
+    /// Why.
+    pub reason: FailureReason,
+    /// The state of the smallest residual. Not an equilibrium; for the eye only.
+    pub nearest: Box<Solution>,
+}

@@ -1,0 +1,2 @@
+//! Every step of the project that is not a plain `cargo` command.
+fn main() {}
