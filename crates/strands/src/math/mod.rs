@@ -10,6 +10,7 @@ mod pose;
 mod quat;
 mod real;
 mod series;
+mod simd;
 mod vec3;
 mod vec6;
 
@@ -20,6 +21,8 @@ pub use pose::{Pose, tangent, tangent_inverse};
 pub use quat::Quat;
 pub use real::Real;
 pub use series::{ExpCoefficients, exp_coefficients, exp_coefficients_second};
+pub use simd::SimdLevel;
+pub(crate) use simd::{Kernel, dispatch};
 pub use vec3::Vec3;
 pub use vec6::{Strain, Stress, Vec6, Wrench};
 

@@ -16,7 +16,8 @@ pub use mesh::{Mesh, Order};
 pub use rest::{RestCurve, RestShape};
 pub use section::Section;
 
-use crate::math::{Pose, Strain, Vec3};
+use crate::element::DiagonalPoint;
+use crate::math::{Pose, Strain, Vec3, Vec6};
 
 /// Which strains are free.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
@@ -168,6 +169,7 @@ pub struct Rod {
     order: Order,
     mesh: Mesh,
     points: Vec<Point>,
+    diagonal: Option<Vec<DiagonalPoint>>,
     node_mass: Vec<f64>,
     half_extent: Vec<[f64; 2]>,
     scale: Scale,
@@ -204,6 +206,7 @@ impl Rod {
                 points.push(Point { rest, law: description.at(s, middle).0 });
             }
         }
+        let diagonal = points.iter().map(|point| diagonal_point(description.kinematics, point)).collect();
         let mut node_mass = vec![0.0; mesh.nodes().len()];
         mesh.distribute(order, 0.0, description.length, |node, s, towards, weight| {
             node_mass[node] += weight * description.at(s, towards).1;
@@ -219,7 +222,7 @@ impl Rod {
             / points.len() as f64;
         let length = description.length;
         let scale = Scale { length, moment: bending / length, force: bending / (length * length) };
-        Ok(Self { description, order, mesh, points, node_mass, half_extent, scale })
+        Ok(Self { description, order, mesh, points, diagonal, node_mass, half_extent, scale })
     }
 
     /// A rod of equal elements, with nodes at its own steps and at further `breaks`.
@@ -279,6 +282,11 @@ impl Rod {
         &self.points[element * n..(element + 1) * n]
     }
 
+    /// All points, packed for the fast kernels, where every law is diagonal.
+    pub(crate) fn diagonal_points(&self) -> Option<&[DiagonalPoint]> {
+        self.diagonal.as_deref()
+    }
+
     /// The mass that each node carries, kg.
     pub fn node_mass(&self) -> &[f64] {
         &self.node_mass
@@ -293,4 +301,17 @@ impl Rod {
     pub fn scale(&self) -> Scale {
         self.scale
     }
+}
+
+fn diagonal_point(kinematics: Kinematics, point: &Point) -> Option<DiagonalPoint> {
+    let Law::Diagonal(stiffness) = &point.law else {
+        return None;
+    };
+    let c = stiffness.to_diagonal();
+    let inverse = |v: Vec3| Vec3::new(1.0 / v.x, 1.0 / v.y, 1.0 / v.z);
+    let linear = match kinematics {
+        Kinematics::Cosserat => inverse(c.linear),
+        Kinematics::Kirchhoff => Vec3::ZERO,
+    };
+    Some(DiagonalPoint { compliance: Vec6::new(inverse(c.angular), linear), rest: point.rest })
 }

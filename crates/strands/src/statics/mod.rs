@@ -1,26 +1,239 @@
-//! Static equilibrium.
+//! Static equilibrium of one rod held at its ends.
+//!
+//! [`solve`] finds it. The standard boundary value problem of the paper (one end clamped, the wrench at the other given) is two
+//! sweeps when the loads follow the rod; with dead loads, whose direction in the material frame depends on how the end is turned, and
+//! with a prescribed end, it is a search for what is unknown at the end: [`Method::Shooting`].
 
+mod boundary;
+mod march;
+mod path;
 mod problem;
+mod shooting;
 mod solution;
+mod stability;
+mod sweep;
+mod variation;
 
 pub use problem::{End, Problem};
+pub use shooting::Workspace;
 pub use solution::{
-    Energy, FailureReason, Guess, Jacobian, Method, Reaction, Settings, Solution, SolveFailure, SolveReport,
+    Energy, FailureReason, Guess, Jacobian, Method, Reaction, Scheme, Settings, Solution, SolveFailure, SolveReport,
 };
 
-/// Scratch of the solvers: made once, reused by every solve of any rod; the only thing that allocates.
-#[derive(Clone, Debug, Default)]
-pub struct Workspace {}
+use crate::math::{Vec3, Vec6};
+use crate::rod::Kinematics;
+use boundary::{EndState, loaded_start};
+use shooting::{Outcome, Search, shoot};
 
 /// Finds an equilibrium of a problem, starting from a guess (the last frame's solution) or from rest.
 ///
 /// # Errors
 /// Where none was found: why, with the nearest state.
 pub fn solve(
-    _problem: &Problem,
-    _settings: &Settings,
-    _guess: Option<&Guess>,
-    _workspace: &mut Workspace,
+    problem: &Problem,
+    settings: &Settings,
+    guess: Option<&Guess>,
+    workspace: &mut Workspace,
 ) -> Result<Solution, SolveFailure> {
-    unimplemented!()
+    let mut report = SolveReport::default();
+    if let Some(reason) = refused(problem, settings) {
+        let search = nearest(problem, guess, workspace, &mut report);
+        return Err(failure(problem, &search, reason, workspace, report));
+    }
+    let search = find(problem, settings, guess, workspace, &mut report);
+    report.morse_index = if search.outcome == Outcome::Converged {
+        stability::morse_index(problem, &search.state, workspace)
+    } else {
+        None
+    };
+    let reason = match search.outcome {
+        Outcome::Converged => return Ok(solution(problem, &search, workspace, report)),
+        Outcome::Singular => FailureReason::Singular,
+        Outcome::NotFinite => FailureReason::NotFinite { node: first_bad_node(workspace) },
+        Outcome::Stalled => FailureReason::NotConverged {
+            residual: report.residual,
+            tolerance: settings.tolerance,
+            iterations: report.iterations,
+        },
+    };
+    Err(failure(problem, &search, reason, workspace, report))
 }
+
+/// Chooses the way: two sweeps where they suffice, a search from the guess, a walk from the guess, a walk from rest.
+fn find(
+    problem: &Problem,
+    settings: &Settings,
+    guess: Option<&Guess>,
+    workspace: &mut Workspace,
+    report: &mut SolveReport,
+) -> Search {
+    let standard = sweep::not_standard(problem).is_none();
+    report.method = if standard && settings.method != Method::Shooting { Method::Sweep } else { Method::Shooting };
+    report.path_steps = 1;
+    if report.method == Method::Sweep && !problem.loads.any_in_world() {
+        return sweep::two_sweeps(problem, settings, workspace, report);
+    }
+    if let Some(guess) = guess {
+        let state = EndState::from_guess(problem, guess);
+        let search = shoot(problem, settings, state, workspace, report);
+        if search.outcome == Outcome::Converged {
+            return search;
+        }
+        let search = path::from_solution(problem, guess, settings, workspace, report);
+        if search.outcome == Outcome::Converged {
+            return search;
+        }
+    }
+    from_rest(problem, settings, workspace, report)
+}
+
+/// Walks from rest; where the end's place is prescribed, tries the sides to buckle to until the equilibrium found is stable.
+fn from_rest(
+    problem: &Problem,
+    settings: &Settings,
+    workspace: &mut Workspace,
+    report: &mut SolveReport,
+) -> Search {
+    if !problem.end.fixed[3..].iter().any(|fixed| *fixed) {
+        return path::from_rest(problem, settings, None, workspace, report);
+    }
+    let mut found: Option<Search> = None;
+    for nudge in path::nudges(problem) {
+        let search = path::from_rest(problem, settings, Some(nudge), workspace, report);
+        let better = found.is_none_or(|found| found.outcome != Outcome::Converged);
+        if search.outcome == Outcome::Converged {
+            if stability::morse_index(problem, &search.state, workspace).unwrap_or(0) == 0 {
+                return search;
+            }
+        }
+        if better {
+            found = Some(search);
+        }
+    }
+    // None of the sides gave a stable one: the first that converged, evaluated again so that its march is on record.
+    let found = found.unwrap_or_else(|| unreachable!("there are four sides"));
+    shoot(problem, settings, found.state, workspace, report)
+}
+
+/// Why a problem is not even tried.
+fn refused(problem: &Problem, settings: &Settings) -> Option<FailureReason> {
+    if settings.method == Method::Sweep
+        && let Some(what) = sweep::not_standard(problem)
+    {
+        return Some(FailureReason::NotStandard { what });
+    }
+    let held = |fixed: &[bool; 6]| fixed[3..] == [true; 3];
+    let reach = problem.rod.length();
+    let distance = (problem.end.pose.position - problem.start.pose.position).norm();
+    let inextensible = problem.rod.kinematics() == Kinematics::Kirchhoff;
+    if inextensible && held(&problem.start.fixed) && held(&problem.end.fixed) && distance > reach * (1.0 + 1e-12) {
+        return Some(FailureReason::OutOfReach { distance, length: reach });
+    }
+    None
+}
+
+/// The state of a problem that is not tried: the guess, or the rod at rest, with its residual.
+fn nearest(
+    problem: &Problem,
+    guess: Option<&Guess>,
+    workspace: &mut Workspace,
+    report: &mut SolveReport,
+) -> Search {
+    let guess = guess.copied().unwrap_or_else(|| path::rest(problem, workspace));
+    let state = EndState::from_guess(problem, &guess);
+    let only_look = Settings { max_iterations: 0, ..Settings::default() };
+    report.method = Method::Shooting;
+    shoot(problem, &only_look, state, workspace, report)
+}
+
+fn failure(
+    problem: &Problem,
+    search: &Search,
+    reason: FailureReason,
+    workspace: &Workspace,
+    report: SolveReport,
+) -> SolveFailure {
+    SolveFailure { reason, nearest: Box::new(solution(problem, search, workspace, report)) }
+}
+
+fn first_bad_node(workspace: &Workspace) -> usize {
+    workspace.record.poses.iter().rposition(|pose| !pose.is_finite()).unwrap_or(0)
+}
+
+/// Reads a solution off the recorded march.
+fn solution(problem: &Problem, search: &Search, workspace: &Workspace, report: SolveReport) -> Solution {
+    let rod = &problem.rod;
+    let record = &workspace.record;
+    let mean = |f: &dyn Fn(usize) -> Vec6, points: usize| {
+        (0..points).fold(Vec6::ZERO, |sum, i| sum + f(i)) * (1.0 / points as f64)
+    };
+    let mut elastic = 0.0;
+    let (mut strain, mut stress) = (Vec::with_capacity(rod.elements()), Vec::with_capacity(rod.elements()));
+    for (e, strains) in record.strains.iter().enumerate() {
+        let points = rod.points(e);
+        let elastic_strain = |i: usize| strains[i] - points[i].rest;
+        elastic += rod.element_length(e)
+            * (0..points.len()).map(|i| points[i].law.energy(elastic_strain(i))).sum::<f64>()
+            / points.len() as f64;
+        strain.push(mean(&|i| strains[i], points.len()));
+        stress.push(match rod.kinematics() {
+            Kinematics::Cosserat => mean(&|i| points[i].law.stress(elastic_strain(i)), points.len()),
+            // The force is what holds the constraint: the wrench that the element carries, in its mean frame.
+            Kinematics::Kirchhoff => {
+                let carried = crate::element::mean_wrench(
+                    crate::element::exponent(rod.order(), rod.element_length(e), strains),
+                    record.wrenches[e],
+                );
+                let bent = mean(&|i| points[i].law.stress(elastic_strain(i)), points.len());
+                Vec6::new(bent.angular, carried.linear)
+            }
+        });
+    }
+    let load = record.poses.iter().zip(&problem.loads.world).map(|(p, l)| -l.linear.dot(p.position)).sum();
+    let start = loaded_start(problem, &search.start);
+    let at_start = Reaction {
+        s: 0.0,
+        force: start.pose.rotation * start.wrench.linear * -1.0,
+        moment: start.pose.rotation * start.wrench.angular * -1.0,
+    };
+    let held = search.state.reaction(problem);
+    let at_end = Reaction { s: rod.length(), force: held.linear, moment: held.angular };
+    let section = search.state.section(problem);
+    Solution {
+        poses: record.poses.clone(),
+        strain,
+        stress,
+        reactions: [at_start, at_end],
+        energy: Energy { elastic, load },
+        guess: Guess { pose: section.pose, wrench: section.wrench },
+        report,
+    }
+}
+
+impl Solution {
+    /// How far force and moment are from balance, over the largest force and moment that act: the supports' reactions and every load,
+    /// moments about the world's origin. Round-off, whatever the number of elements.
+    pub fn imbalance(&self, problem: &Problem) -> f64 {
+        let (mut force, mut moment) = (Vec3::ZERO, Vec3::ZERO);
+        let (mut force_size, mut moment_size) = (f64::MIN_POSITIVE, f64::MIN_POSITIVE);
+        let mut add = |f: Vec3, m: Vec3, at: Vec3| {
+            let m = m + at.cross(f);
+            force += f;
+            moment += m;
+            force_size = force_size.max(f.norm());
+            moment_size = moment_size.max(m.norm());
+        };
+        for (i, pose) in self.poses.iter().enumerate() {
+            let (world, body) = (problem.loads.world[i], problem.loads.body[i]);
+            add(world.linear, world.angular, pose.position);
+            add(pose.rotation * body.linear, pose.rotation * body.angular, pose.position);
+        }
+        for (reaction, pose) in self.reactions.iter().zip([&self.poses[0], &self.poses[self.poses.len() - 1]]) {
+            add(reaction.force, reaction.moment, pose.position);
+        }
+        (force.norm() / force_size).max(moment.norm() / moment_size)
+    }
+}
+
+#[cfg(test)]
+mod tests;

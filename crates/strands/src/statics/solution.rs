@@ -26,6 +26,17 @@ impl Method {
     }
 }
 
+/// How an element's exponent is found.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub enum Scheme {
+    /// By its own local equation, of the rod's order.
+    #[default]
+    Element,
+    /// With the strains of the two neighbours already known, extrapolated, in place of the unknown one: `σ = T(h ε*)ᵀ w`,
+    /// `ε* = ε̂ + 2 e₁ − e₂`. Explicit, of Adams's kind, second order on a uniform mesh (the multistep variant that the paper mentions).
+    Multistep,
+}
+
 /// How the Jacobian of the shooting residual is found. All give the same solution.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub enum Jacobian {
@@ -45,6 +56,8 @@ pub enum Jacobian {
 pub struct Settings {
     /// Which solver.
     pub method: Method,
+    /// How an element's exponent is found.
+    pub scheme: Scheme,
     /// How the Jacobian is found.
     pub jacobian: Jacobian,
     /// The residual at which a solution is accepted: turns in rad, shifts over the rod's length, forces and moments over
@@ -60,6 +73,7 @@ impl Default for Settings {
     fn default() -> Self {
         Self {
             method: Method::Auto,
+            scheme: Scheme::default(),
             jacobian: Jacobian::default(),
             tolerance: 1e-9,
             max_iterations: 40,

@@ -1,0 +1,481 @@
+//! One element of a rod: the one place where its mechanics is written.
+//!
+//! An element joins node `a` to node `b`. Its exponent `Ω` takes the frame of `a` to that of `b`, `H_b = H_a exp(Ω)`. Its
+//! energy is the quadrature of the stored energy at its points, and making the sum of energies stationary gives, with `w` the
+//! wrench that the rod carries through `b` and `T` the tangent of the exponential,
+//!
+//! | order | exponent | stress at the points |
+//! | --- | --- | --- |
+//! | 1 | `Ω = h ε` | `σ = w` |
+//! | 2 | `Ω = h ε` | `σ = σ̄` |
+//! | 4 | `Ω = h (ε₁ + ε₂)/2 + (√3/12) h² [ε₁, ε₂]` | `σ₁,₂ = σ̄ ± (√3/6) h ad*(ε₂,₁) σ̄` |
+//!
+//! where `σ̄ = T(Ω)ᵀ w` is the mean along the element of the wrench that it carries, in the local frame, and
+//! `ad*(ε) σ = (u×m + v×n, u×n)`. The wrench carried through `a` is the same wrench, moved and turned: `Ad⁻ᵀ(exp Ω) w`. So
+//! force and moment balance are exact at any number of elements, whatever the law. Order 2 is the element of Sonneville, Cardona &
+//! Brüls (2014); order 4 is the two-point Gauss collocation of Magnus (Orekhov & Simaan 2020), with the stresses that follow from its
+//! energy. The sign of the bracket is that of `H' = H ε^`.
+//!
+//! Given `w`, the strain solves a small local equation; the functions here solve it, and linearise the solution.
+
+use crate::math::{
+    Mat3, Mat6, Real, Strain, Stress, Vec3, Vec6, Wrench, exp_coefficients, exp_coefficients_second, lu, tangent,
+};
+use crate::rod::{Kinematics, Order, Point};
+
+/// `√3/6`, half the distance of the Gauss points over the element's length.
+const GAUSS_OFFSET: f64 = 0.288_675_134_594_812_9;
+/// A local iteration that takes longer than this is not going to end.
+const MAX_LOCAL_ITERATIONS: usize = 60;
+/// How far, in rad or as a part, the strain over an element may be from the solution of its local equation.
+const LOCAL_TOLERANCE: f64 = 1e-14;
+
+/// The compliance and rest strain at one point of an element with a diagonal law. A strain that is not free has compliance zero.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct DiagonalPoint {
+    pub compliance: Vec6,
+    pub rest: Strain,
+}
+
+/// The strain at the points of an element, one or two of them.
+pub(crate) type PointStrains<R = f64> = [Strain<R>; 2];
+
+/// `σ̄ = T(x)ᵀ w`: the mean along an element of the wrench that it carries.
+#[inline(always)]
+pub(crate) fn mean_wrench<R: Real>(x: Vec6<R>, w: Wrench<R>) -> Stress<R> {
+    let (u, v, m, n) = (x.angular, x.linear, w.angular, w.linear);
+    let k = exp_coefficients(u.dot(u));
+    let un = u.cross(n);
+    let uun = u.cross(un);
+    let first = u.cross(m) + v.cross(n);
+    let second = u.cross(first) + v.cross(un);
+    let twice = u.dot(v) * R::splat(2.0);
+    Stress::new(
+        m + first * k.b + second * k.c + un * (twice * k.db) + uun * (twice * k.dc),
+        n + un * k.b + uun * k.c,
+    )
+}
+
+/// The derivative of [`mean_wrench`] by `x`: the blocks `∂m̄/∂u`, `∂m̄/∂v` and `∂n̄/∂u` (`∂n̄/∂v` is zero).
+struct MeanWrenchDerivative {
+    moment_by_turn: Mat3,
+    moment_by_shift: Mat3,
+    force_by_turn: Mat3,
+}
+
+fn mean_wrench_derivative(x: Vec6, w: Wrench) -> MeanWrenchDerivative {
+    let (u, v, m, n) = (x.angular, x.linear, w.angular, w.linear);
+    let t = u.dot(u);
+    let k = exp_coefficients(t);
+    let (ddb, ddc) = exp_coefficients_second(t);
+    let un = u.cross(n);
+    let uun = u.cross(un);
+    let first = u.cross(m) + v.cross(n);
+    let second = u.cross(first) + v.cross(un);
+    let twice = 2.0 * u.dot(v);
+    let (hat_u, hat_n) = (Mat3::hat(u), Mat3::hat(n));
+    let d_un = hat_n.scaled(-1.0);
+    let d_uun = (Mat3::hat(un) + hat_u * hat_n).scaled(-1.0);
+    let d_first = Mat3::hat(m).scaled(-1.0);
+    let d_second = (Mat3::hat(first) + hat_u * Mat3::hat(m) + Mat3::hat(v) * hat_n).scaled(-1.0);
+    let coupling = (un * k.db + uun * k.dc) * 2.0;
+    MeanWrenchDerivative {
+        moment_by_turn: d_first.scaled(k.b)
+            + d_second.scaled(k.c)
+            + (d_un.scaled(k.db) + d_uun.scaled(k.dc)).scaled(twice)
+            + Mat3::outer((first * k.db + second * k.dc + (un * ddb + uun * ddc) * twice) * 2.0, u)
+            + Mat3::outer(coupling, v),
+        moment_by_shift: d_un.scaled(k.b) + d_uun.scaled(k.c) + Mat3::outer(coupling, u),
+        force_by_turn: d_un.scaled(k.b) + d_uun.scaled(k.c) + Mat3::outer((un * k.db + uun * k.dc) * 2.0, u),
+    }
+}
+
+/// The exponent of an element from the strains at its points.
+#[inline(always)]
+pub(crate) fn exponent<R: Real>(order: Order, h: f64, strain: &PointStrains<R>) -> Vec6<R> {
+    match order {
+        Order::First | Order::Second => strain[0] * R::splat(h),
+        Order::Fourth => {
+            (strain[0] + strain[1]) * R::splat(0.5 * h)
+                + strain[0].bracket(strain[1]) * R::splat(0.5 * GAUSS_OFFSET * h * h)
+        }
+    }
+}
+
+/// The stresses at the two points of an element of order 4.
+#[inline(always)]
+fn gauss_stresses<R: Real>(h: f64, strain: &PointStrains<R>, mean: Stress<R>) -> [Stress<R>; 2] {
+    let k = R::splat(GAUSS_OFFSET * h);
+    [mean + strain[1].coadjoint(mean) * k, mean - strain[0].coadjoint(mean) * k]
+}
+
+/// Solves the local equation of an element with a diagonal law: the strains that go with the wrench `w` through node `b`, from a
+/// guess. Lanes that do not converge come back as NaN.
+///
+/// A Newton iteration whose matrix is the derivative of the equation's series up to second order, formed once: each pass
+/// gains a factor of about `θ³/24`, `θ` the turn along the element.
+#[inline(always)]
+pub(crate) fn solve_diagonal<R: Real, const ORDER: usize>(
+    h: f64,
+    points: &[DiagonalPoint],
+    w: Wrench<R>,
+    guess: PointStrains<R>,
+) -> PointStrains<R> {
+    match ORDER {
+        1 => {
+            let strain = points[0].rest.splat() + points[0].compliance.splat().scale(w);
+            [strain, strain]
+        }
+        2 => {
+            let strain = solve_second(h, &points[0], w, guess[0]);
+            [strain, strain]
+        }
+        _ => solve_fourth(h, [&points[0], &points[1]], w, guess),
+    }
+}
+
+#[inline(always)]
+fn solve_second<R: Real>(h: f64, point: &DiagonalPoint, w: Wrench<R>, guess: Strain<R>) -> Strain<R> {
+    let (compliance, rest) = (point.compliance.splat::<R>(), point.rest.splat::<R>());
+    let length = R::splat(h);
+    let newton = LocalNewton::new(h, compliance, guess, w);
+    let mut strain = guess;
+    for _ in 0..MAX_LOCAL_ITERATIONS {
+        let residual = rest + compliance.scale(mean_wrench(strain * length, w)) - strain;
+        let step = newton.step(residual);
+        strain += step;
+        if R::all(newton.converged(step)) {
+            return strain;
+        }
+    }
+    strain * R::splat(f64::NAN)
+}
+
+#[inline(always)]
+fn solve_fourth<R: Real>(
+    h: f64,
+    points: [&DiagonalPoint; 2],
+    w: Wrench<R>,
+    guess: PointStrains<R>,
+) -> PointStrains<R> {
+    let compliance = points.map(|point| point.compliance.splat::<R>());
+    let rest = points.map(|point| point.rest.splat::<R>());
+    let half = R::splat(0.5);
+    let mut strain = guess;
+    let newton =
+        LocalNewton::new(h, (compliance[0] + compliance[1]) * half, (guess[0] + guess[1]) * half, w);
+    for _ in 0..MAX_LOCAL_ITERATIONS {
+        let mean = mean_wrench(exponent(Order::Fourth, h, &strain), w);
+        let stress = gauss_stresses(h, &strain, mean);
+        let residual: [Strain<R>; 2] =
+            core::array::from_fn(|i| rest[i] + compliance[i].scale(stress[i]) - strain[i]);
+        let common_residual = (residual[0] + residual[1]) * half;
+        let common = newton.step(common_residual);
+        // The difference of the two strains follows from the mean one.
+        let follow = common.coadjoint(mean) * R::splat(GAUSS_OFFSET * h);
+        let step = [
+            residual[0] - common_residual + common + compliance[0].scale(follow),
+            residual[1] - common_residual + common - compliance[1].scale(follow),
+        ];
+        strain[0] += step[0];
+        strain[1] += step[1];
+        if R::all(R::and(newton.converged(step[0]), newton.converged(step[1]))) {
+            return strain;
+        }
+    }
+    strain.map(|strain| strain * R::splat(f64::NAN))
+}
+
+/// The approximate Newton matrix of the local equation, inverted.
+struct LocalNewton<R> {
+    h: R,
+    compliance: Vec6<R>,
+    half_force: Vec3<R>,
+    inverse: Mat3<R>,
+    theta2: R,
+}
+
+impl<R: Real> LocalNewton<R> {
+    #[inline(always)]
+    fn new(h: f64, compliance: Vec6<R>, strain: Strain<R>, w: Wrench<R>) -> Self {
+        let length = R::splat(h);
+        let (u, v, m, n) = (strain.angular * length, strain.linear * length, w.angular, w.linear);
+        let sixth = R::splat(1.0 / 6.0);
+        let turn = m * R::splat(0.5) + (u.cross(m) + v.cross(n)) * sixth;
+        let trace = (u.dot(m) + v.dot(n)) * sixth;
+        let one = R::one();
+        let (su, m6, n6) = (compliance.angular * length, m * sixth, n * sixth);
+        // 1 − h S ∂m̄/∂u with ∂m̄/∂u ≈ −(m/2 + (u×m + v×n)/6)^ − (m uᵀ + n vᵀ)/6 + (u·m + v·n)/6, row by row.
+        let row = |scale: R, hat: Vec3<R>, mi: R, ni: R| (hat + u * mi + v * ni) * scale;
+        let rows = [
+            row(su.x, Vec3::new(R::zero(), -turn.z, turn.y), m6.x, n6.x),
+            row(su.y, Vec3::new(turn.z, R::zero(), -turn.x), m6.y, n6.y),
+            row(su.z, Vec3::new(-turn.y, turn.x, R::zero()), m6.z, n6.z),
+        ];
+        let matrix = Mat3::from_cols(
+            Vec3::new(one - su.x * trace + rows[0].x, rows[0].y, rows[0].z),
+            Vec3::new(rows[1].x, one - su.y * trace + rows[1].y, rows[1].z),
+            Vec3::new(rows[2].x, rows[2].y, one - su.z * trace + rows[2].z),
+        );
+        Self {
+            h: length,
+            compliance,
+            half_force: n * (length * R::splat(0.5)),
+            inverse: matrix.inverse().transpose(),
+            theta2: u.dot(u),
+        }
+    }
+
+    #[inline(always)]
+    fn step(&self, residual: Strain<R>) -> Strain<R> {
+        let bent = self.compliance.angular.scale(residual.linear.cross(self.half_force));
+        let angular = self.inverse * (residual.angular + bent);
+        let sheared = self.compliance.linear.scale(angular.cross(self.half_force));
+        Strain::new(angular, residual.linear + sheared)
+    }
+
+    /// Whether what is left after a step is round-off: the next step would be smaller by about `θ²` or more.
+    #[inline(always)]
+    fn converged(&self, step: Strain<R>) -> R::Mask {
+        let (a, l) = (step.angular, step.linear);
+        let turn = (a.x.abs() + a.y.abs() + a.z.abs()) * self.h;
+        let shift = l.x.abs() + l.y.abs() + l.z.abs();
+        let size = turn + shift;
+        R::and(size.at_most(1e-9), (size * self.theta2).at_most(LOCAL_TOLERANCE))
+    }
+}
+
+/// Solves the local equation of an element of any law, by Newton's method with the exact derivative.
+/// `None` where it does not converge.
+pub(crate) fn solve_general(
+    order: Order,
+    kinematics: Kinematics,
+    h: f64,
+    points: &[Point],
+    w: Wrench,
+    guess: PointStrains,
+) -> Option<PointStrains> {
+    let free = free_strains(kinematics);
+    let mut strain = guess;
+    for _ in 0..MAX_LOCAL_ITERATIONS {
+        let system = LocalSystem::new(order, h, points, w, &strain);
+        let step = system.solve(free, &system.residual)?;
+        let mut largest = 0.0_f64;
+        for (i, strain) in strain.iter_mut().enumerate().take(points.len()) {
+            let step = Strain::from(core::array::from_fn::<f64, 6, _>(|k| step[6 * i + k]));
+            *strain += step;
+            largest = largest.max(h * step.angular.max_abs()).max(step.linear.max_abs());
+        }
+        if !largest.is_finite() {
+            return None;
+        }
+        if largest <= 1e-12 {
+            if points.len() == 1 {
+                strain[1] = strain[0];
+            }
+            return Some(strain);
+        }
+    }
+    None
+}
+
+/// Which of the six strains are free.
+pub(crate) const fn free_strains(kinematics: Kinematics) -> usize {
+    match kinematics {
+        Kinematics::Cosserat => 6,
+        Kinematics::Kirchhoff => 3,
+    }
+}
+
+/// How an element yields: a change `δw` of the wrench through `b` turns and shifts the exponential by
+/// `ξ = flexibility · δw` (in frame `b`: `exp(Ω + δΩ) = exp(Ω) exp(ξ)`).
+pub(crate) fn flexibility(
+    order: Order,
+    kinematics: Kinematics,
+    h: f64,
+    points: &[Point],
+    w: Wrench,
+    strain: &PointStrains,
+) -> Option<Mat6> {
+    let free = free_strains(kinematics);
+    let system = LocalSystem::new(order, h, points, w, strain);
+    let omega = exponent(order, h, strain);
+    let t = tangent(omega);
+    let transpose = t.transpose();
+    let mut columns = [[0.0; 6]; 6];
+    for (j, column) in columns.iter_mut().enumerate() {
+        let unit = Wrench::from(core::array::from_fn::<f64, 6, _>(|i| f64::from(u8::from(i == j))));
+        let rhs = system.driven_by(order, h, strain, if order == Order::First { unit } else { transpose.mul_vec(unit) });
+        let step = system.solve(free, &rhs)?;
+        let d: PointStrains =
+            core::array::from_fn(|i| Strain::from(core::array::from_fn::<f64, 6, _>(|k| step[6 * i.min(points.len() - 1) + k])));
+        let d_omega = match order {
+            Order::First | Order::Second => d[0] * h,
+            Order::Fourth => {
+                (d[0] + d[1]) * (0.5 * h)
+                    + (d[0].bracket(strain[1]) + strain[0].bracket(d[1])) * (0.5 * GAUSS_OFFSET * h * h)
+            }
+        };
+        *column = t.mul_vec(d_omega).to_array();
+    }
+    Some(Mat6::from_rows(&columns).transpose())
+}
+
+/// The local equations `σ(ε) − T-stress = 0` of an element and their derivative, stiffness form, dense.
+struct LocalSystem {
+    size: usize,
+    matrix: [[f64; 12]; 12],
+    residual: [f64; 12],
+}
+
+impl LocalSystem {
+    fn new(order: Order, h: f64, points: &[Point], w: Wrench, strain: &PointStrains) -> Self {
+        let size = 6 * points.len();
+        let mut matrix = [[0.0; 12]; 12];
+        let mut residual = [0.0; 12];
+        let mut put = |i: usize, j: usize, block: &Mat6| {
+            for (r, row) in block.to_rows().iter().enumerate() {
+                for (c, value) in row.iter().enumerate() {
+                    matrix[6 * i + r][6 * j + c] += value;
+                }
+            }
+        };
+        let elastic = |i: usize| strain[i] - points[i].rest;
+        let mut demand = [w, w];
+        match order {
+            Order::First => put(0, 0, &points[0].law.tangent(elastic(0))),
+            Order::Second => {
+                let x = strain[0] * h;
+                demand[0] = mean_wrench(x, w);
+                put(0, 0, &points[0].law.tangent(elastic(0)));
+                put(0, 0, &mean_derivative(x, w).scaled(-h));
+            }
+            Order::Fourth => {
+                let omega = exponent(order, h, strain);
+                let mean = mean_wrench(omega, w);
+                demand = gauss_stresses(h, strain, mean);
+                let by_omega = mean_derivative(omega, w);
+                let k = GAUSS_OFFSET * h;
+                for i in 0..2 {
+                    put(i, i, &points[i].law.tangent(elastic(i)));
+                    let sign = if i == 0 { 1.0 } else { -1.0 };
+                    let other = strain[1 - i];
+                    // σ = σ̄ ± k ad*(other) σ̄: by σ̄ through Ω, and by the other strain directly.
+                    let through = coadjoint_matrix(other).scaled(sign * k).add(&Mat6::IDENTITY).mul(&by_omega);
+                    for j in 0..2 {
+                        let sign_j = if j == 0 { -1.0 } else { 1.0 };
+                        let d_omega = Mat6::IDENTITY
+                            .scaled(0.5 * h)
+                            .add(&bracket_matrix(strain[1 - j]).scaled(sign_j * 0.5 * GAUSS_OFFSET * h * h));
+                        put(i, j, &through.mul(&d_omega).scaled(-1.0));
+                    }
+                    put(i, 1 - i, &coadjoint_by_strain(mean).scaled(-sign * k));
+                }
+            }
+        }
+        for i in 0..points.len() {
+            let gap = demand[i] - points[i].law.stress(elastic(i));
+            residual[6 * i..6 * i + 6].copy_from_slice(&gap.to_array());
+        }
+        Self { size, matrix, residual }
+    }
+
+    /// The right-hand side of a change of the mean wrench.
+    fn driven_by(&self, order: Order, h: f64, strain: &PointStrains, mean: Wrench) -> [f64; 12] {
+        let mut rhs = [0.0; 12];
+        let stresses = if order == Order::Fourth { gauss_stresses(h, strain, mean) } else { [mean, mean] };
+        rhs[..6].copy_from_slice(&stresses[0].to_array());
+        rhs[6..].copy_from_slice(&stresses[1].to_array());
+        rhs
+    }
+
+    /// Solves for the free strains, the first `free` of each six.
+    fn solve(&self, free: usize, rhs: &[f64; 12]) -> Option<[f64; 12]> {
+        let active = |i: usize| i < self.size && i % 6 < free;
+        let mut a = [[0.0; 12]; 12];
+        let mut b = [0.0; 12];
+        for i in 0..12 {
+            if active(i) {
+                // Rows are scaled by their diagonal: bending and stretching differ by many orders of magnitude.
+                let scale = 1.0 / self.matrix[i][i].abs().max(f64::MIN_POSITIVE);
+                b[i] = rhs[i] * scale;
+                for j in 0..12 {
+                    a[i][j] = if active(j) { self.matrix[i][j] * scale } else { 0.0 };
+                }
+            } else {
+                a[i][i] = 1.0;
+            }
+        }
+        Some(lu(a)?.solve(&b))
+    }
+}
+
+/// The derivative of [`mean_wrench`] by `x` as one matrix.
+fn mean_derivative(x: Vec6, w: Wrench) -> Mat6 {
+    let d = mean_wrench_derivative(x, w);
+    Mat6 { blocks: [[d.moment_by_turn, d.moment_by_shift], [d.force_by_turn, Mat3::ZERO]] }
+}
+
+/// The matrix of `σ ↦ ad*(ε) σ`.
+fn coadjoint_matrix(strain: Strain) -> Mat6 {
+    let (u, v) = (Mat3::hat(strain.angular), Mat3::hat(strain.linear));
+    Mat6 { blocks: [[u, v], [Mat3::ZERO, u]] }
+}
+
+/// The matrix of `ε ↦ ad*(ε) σ`.
+fn coadjoint_by_strain(stress: Stress) -> Mat6 {
+    let (m, n) = (Mat3::hat(stress.angular).scaled(-1.0), Mat3::hat(stress.linear).scaled(-1.0));
+    Mat6 { blocks: [[m, n], [n, Mat3::ZERO]] }
+}
+
+/// The matrix of `y ↦ [x, y]`.
+fn bracket_matrix(x: Vec6) -> Mat6 {
+    let (u, v) = (Mat3::hat(x.angular), Mat3::hat(x.linear));
+    Mat6 { blocks: [[u, Mat3::ZERO], [v, u]] }
+}
+
+/// The flexibility of an element of order 2 with a diagonal law, in the factors that are cheapest to apply: `T · inner · Tᵀ`, with `T`
+/// made of `turn` on its diagonal and `shift` below it.
+pub(crate) struct DiagonalFlexibility {
+    pub turn: Mat3,
+    pub shift: Mat3,
+    pub inner: [[Mat3; 2]; 2],
+}
+
+/// [`flexibility`] for order 2 and a diagonal law.
+#[inline(always)]
+pub(crate) fn diagonal_flexibility<const KIRCHHOFF: bool>(
+    h: f64,
+    point: &DiagonalPoint,
+    w: Wrench,
+    strain: &Strain,
+) -> DiagonalFlexibility {
+    let x = *strain * h;
+    let t = tangent(x);
+    let d = mean_wrench_derivative(x, w);
+    let (su, sv) = (point.compliance.angular * h, point.compliance.linear * h);
+    let scale_rows = |s: Vec3, m: Mat3| Mat3 { cols: m.cols.map(|c| c.scale(s)) };
+    let by_turn = scale_rows(su, d.moment_by_turn);
+    if KIRCHHOFF {
+        let a = (Mat3::IDENTITY - by_turn).inverse() * Mat3::diagonal(su);
+        return DiagonalFlexibility {
+            turn: t.blocks[0][0],
+            shift: t.blocks[1][0],
+            inner: [[a, Mat3::ZERO], [Mat3::ZERO, Mat3::ZERO]],
+        };
+    }
+    // (1 − S h K) δε = S Tᵀ δw; ∂n̄/∂v = 0, so the shifts are eliminated by hand.
+    let by_shift = scale_rows(su, d.moment_by_shift);
+    let c = scale_rows(sv, d.force_by_turn);
+    let schur = (Mat3::IDENTITY - by_turn - by_shift * c).inverse();
+    let a = schur * Mat3::diagonal(su);
+    let b = schur * by_shift * Mat3::diagonal(sv);
+    DiagonalFlexibility {
+        turn: t.blocks[0][0],
+        shift: t.blocks[1][0],
+        inner: [[a, b], [c * a, Mat3::diagonal(sv) + c * b]],
+    }
+}
+
+#[cfg(test)]
+mod tests;

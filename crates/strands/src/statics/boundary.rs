@@ -1,0 +1,291 @@
+//! The two ends of a shooting problem: what is unknown at the far end, and what must hold at the near one.
+//!
+//! At the end `s = L` each of the six freedoms has one unknown: where it is fixed, the reaction along it; where it is free,
+//! the place along it. So the number of unknowns is always six, whatever is prescribed. At the start each freedom has one
+//! residual in the same way: where it is fixed, the place must be right; where it is free, the wrench must vanish.
+//!
+//! Turns about the fixed frame's axes are the components of the rotation vector `φ = log(R*ᵀ R)`; the moment that works on `φᵢ`
+//! is `J(φ)⁻ᵀ eᵢ`, with `J` the tangent on SO(3). With all turns free or all fixed both reduce to the material axes.
+
+use super::march::{Section, turned};
+use super::problem::{End, Problem};
+use super::solution::Guess;
+use super::variation::{Columns, Variation, turned_by};
+use crate::math::{Mat3, Pose, Quat, Vec3, Vec6, Wrench, tangent, tangent_inverse};
+use crate::rod::Scale;
+
+/// The end of a rod, with its reaction: force in world axes, moment by the turns of the fixed frame.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct EndState {
+    pub pose: Pose,
+    reaction: Wrench,
+}
+
+/// Which of an end's turns are fixed.
+#[derive(Clone, Copy, PartialEq, Eq)]
+enum Turns {
+    Free,
+    Fixed,
+    Mixed,
+}
+
+impl End {
+    fn turns(&self) -> Turns {
+        match self.fixed[..3].iter().filter(|fixed| **fixed).count() {
+            0 => Turns::Free,
+            3 => Turns::Fixed,
+            _ => Turns::Mixed,
+        }
+    }
+
+    /// The rotation vector from the fixed frame.
+    fn turn_of(&self, pose: &Pose) -> Vec3 {
+        Quat::from_matrix(self.pose.rotation.transpose() * pose.rotation).to_rotation_vector()
+    }
+}
+
+fn so3_tangent(phi: Vec3) -> Mat3 {
+    tangent(Vec6::new(phi, Vec3::ZERO)).blocks[0][0]
+}
+
+fn so3_tangent_inverse(phi: Vec3) -> Mat3 {
+    tangent_inverse(Vec6::new(phi, Vec3::ZERO)).blocks[0][0]
+}
+
+fn unit(i: usize) -> Vec3 {
+    let mut e = Vec3::ZERO;
+    e[i] = 1.0;
+    e
+}
+
+impl EndState {
+    /// The end as a guess has it, moved so that what is fixed is met.
+    pub fn from_guess(problem: &Problem, guess: &Guess) -> Self {
+        let end = &problem.end;
+        let pose = meet(end, &guess.pose);
+        let mut state = Self { pose, reaction: Wrench::ZERO };
+        // What the guess's wrench has beyond the loads is the reaction.
+        let beyond = guess.wrench - state.section(problem).wrench;
+        let force = pose.rotation * beyond.linear;
+        let moment = match end.turns() {
+            Turns::Free => Vec3::ZERO,
+            Turns::Fixed => beyond.angular,
+            // J⁻ᵀ λ = m, so λ = Jᵀ m.
+            Turns::Mixed => so3_tangent(end.turn_of(&pose)).transpose_mul(beyond.angular),
+        };
+        for i in 0..3 {
+            state.reaction.angular[i] = if end.fixed[i] { moment[i] } else { 0.0 };
+            state.reaction.linear[i] = if end.fixed[3 + i] { force[i] } else { 0.0 };
+        }
+        state
+    }
+
+    /// The same reaction, at an end that is held elsewhere.
+    pub fn moved(&self, problem: &Problem) -> Self {
+        Self { pose: meet(&problem.end, &self.pose), reaction: self.reaction }
+    }
+
+    /// The frame and internal wrench at the end: loads, reaction and grip together.
+    pub fn section(&self, problem: &Problem) -> Section {
+        let end = &problem.end;
+        let node = problem.rod.elements();
+        let world = self.world_wrench(problem);
+        let mut wrench = turned(&self.pose, world) + problem.loads.body[node];
+        wrench.angular += match end.turns() {
+            Turns::Free => Vec3::ZERO,
+            Turns::Fixed => self.reaction.angular,
+            Turns::Mixed => so3_tangent_inverse(end.turn_of(&self.pose)).transpose_mul(self.reaction.angular),
+        };
+        Section { pose: self.pose, wrench }
+    }
+
+    /// What acts on the end in world axes: dead loads, the reaction's force, the grip.
+    fn world_wrench(&self, problem: &Problem) -> Wrench {
+        let mut world = problem.loads.world[problem.rod.elements()];
+        world.linear += self.reaction.linear;
+        if let Some(grip) = &problem.end.grip {
+            world += grip.wrench(&self.pose);
+        }
+        world
+    }
+
+    /// How the section at the end changes with each unknown.
+    pub fn columns(&self, problem: &Problem) -> Columns {
+        let end = &problem.end;
+        let rotation = self.pose.rotation;
+        let turns = end.turns();
+        let phi = if turns == Turns::Mixed { end.turn_of(&self.pose) } else { Vec3::ZERO };
+        let (j, j_inverse) = (so3_tangent(phi), so3_tangent_inverse(phi));
+        let body_axes = turned(&self.pose, self.world_wrench(problem));
+        let grip = end.grip.as_ref().map(|grip| grip.stiffness(&self.pose));
+        core::array::from_fn(|k| {
+            let axis = unit(k % 3);
+            let mut column = Variation { frame: Vec6::ZERO, wrench: Wrench::ZERO };
+            match (end.fixed[k], k < 3) {
+                (true, true) => column.wrench.angular = j_inverse.transpose_mul(axis),
+                (true, false) => column.wrench.linear = rotation.transpose_mul(axis),
+                (false, true) => {
+                    let turn = j * axis;
+                    column.frame.angular = turn;
+                    column.wrench = turned_by(body_axes, turn);
+                    if turns == Turns::Mixed {
+                        column.wrench.angular += self.reaction_moment_slope(phi, k);
+                    }
+                    if let Some((by_turn, _)) = &grip {
+                        column.wrench.angular += rotation.transpose_mul(*by_turn * turn);
+                    }
+                }
+                (false, false) => {
+                    column.frame.linear = rotation.transpose_mul(axis);
+                    if let Some((_, by_shift)) = &grip {
+                        column.wrench.linear = rotation.transpose_mul(*by_shift * axis);
+                    }
+                }
+            }
+            column
+        })
+    }
+
+    /// `d(J(φ)⁻ᵀ λ)/dφ_k`, by a central difference (only where an end is fixed in some turns and free in others).
+    fn reaction_moment_slope(&self, phi: Vec3, k: usize) -> Vec3 {
+        let step = 1e-5;
+        let at = |sign: f64| {
+            so3_tangent_inverse(phi + unit(k) * (sign * step)).transpose_mul(self.reaction.angular)
+        };
+        (at(1.0) - at(-1.0)) * (0.5 / step)
+    }
+
+    /// The end after a step in the unknowns.
+    pub fn stepped(&self, problem: &Problem, step: &[f64; 6]) -> Self {
+        let end = &problem.end;
+        let mut next = *self;
+        let mut turn = Vec3::ZERO;
+        for i in 0..3 {
+            if end.fixed[i] {
+                next.reaction.angular[i] += step[i];
+            } else {
+                turn[i] = step[i];
+            }
+            if end.fixed[3 + i] {
+                next.reaction.linear[i] += step[3 + i];
+            } else {
+                next.pose.position[i] += step[3 + i];
+            }
+        }
+        match end.turns() {
+            Turns::Fixed => {}
+            Turns::Free => {
+                next.pose.rotation = renormalised(self.pose.rotation * Quat::from_rotation_vector(turn).to_matrix());
+            }
+            Turns::Mixed => {
+                let phi = end.turn_of(&self.pose) + turn;
+                next.pose.rotation = end.pose.rotation * Quat::from_rotation_vector(phi).to_matrix();
+            }
+        }
+        next
+    }
+
+    /// What holds the end: force and moment about the node, world axes.
+    pub fn reaction(&self, problem: &Problem) -> Wrench {
+        let end = &problem.end;
+        let moment = match end.turns() {
+            Turns::Free => Vec3::ZERO,
+            Turns::Fixed => self.reaction.angular,
+            Turns::Mixed => so3_tangent_inverse(end.turn_of(&self.pose)).transpose_mul(self.reaction.angular),
+        };
+        let held = Wrench::new(self.pose.rotation * moment, self.reaction.linear);
+        end.grip.as_ref().map_or(held, |grip| held + grip.wrench(&self.pose))
+    }
+}
+
+/// How large each unknown of the end typically is.
+pub(crate) fn unknown_scale(end: &End, scale: &Scale) -> [f64; 6] {
+    core::array::from_fn(|k| match (end.fixed[k], k < 3) {
+        (true, true) => scale.moment,
+        (true, false) => scale.force,
+        (false, true) => 1.0,
+        (false, false) => scale.length,
+    })
+}
+
+/// A frame turned and shifted so that what an end fixes is met.
+pub(crate) fn meet(end: &End, pose: &Pose) -> Pose {
+    let mut met = *pose;
+    match end.turns() {
+        Turns::Free => met.rotation = renormalised(pose.rotation),
+        Turns::Fixed => met.rotation = end.pose.rotation,
+        Turns::Mixed => {
+            let mut phi = end.turn_of(pose);
+            (0..3).filter(|i| end.fixed[*i]).for_each(|i| phi[i] = 0.0);
+            met.rotation = end.pose.rotation * Quat::from_rotation_vector(phi).to_matrix();
+        }
+    }
+    (0..3).filter(|i| end.fixed[3 + i]).for_each(|i| met.position[i] = end.pose.position[i]);
+    met
+}
+
+/// A rotation matrix without the round-off that products gather.
+fn renormalised(rotation: Mat3) -> Mat3 {
+    Quat::from_matrix(rotation).to_matrix()
+}
+
+/// The section at the start with the first node's loads: its wrench is the opposite of the start's reaction, in the frame.
+pub(crate) fn loaded_start(problem: &Problem, start: &Section) -> Section {
+    let loads = problem.loads.body[0] + turned(&start.pose, problem.loads.world[0]);
+    Section { pose: start.pose, wrench: start.wrench + loads }
+}
+
+/// What is wrong at the start, dimensionless.
+pub(crate) fn residual(problem: &Problem, start: &Section) -> [f64; 6] {
+    let end = &problem.start;
+    let scale = problem.rod.scale();
+    let loaded = loaded_start(problem, start);
+    let phi = end.turn_of(&start.pose);
+    let gap = start.pose.position - end.pose.position;
+    let force = loaded.pose.rotation * loaded.wrench.linear;
+    let moment = match end.turns() {
+        Turns::Mixed => so3_tangent(phi).transpose_mul(loaded.wrench.angular),
+        _ => loaded.wrench.angular,
+    };
+    core::array::from_fn(|k| match (end.fixed[k], k < 3) {
+        (true, true) => phi[k],
+        (true, false) => gap[k - 3] / scale.length,
+        (false, true) => moment[k] / scale.moment,
+        (false, false) => force[k - 3] / scale.force,
+    })
+}
+
+/// How the residual changes with each column of the variation at the start: `jacobian[row][column]`.
+pub(crate) fn residual_slope(problem: &Problem, start: &Section, columns: &Columns) -> [[f64; 6]; 6] {
+    let end = &problem.start;
+    let scale = problem.rod.scale();
+    let loaded = loaded_start(problem, start);
+    let phi = end.turn_of(&start.pose);
+    let j_inverse = so3_tangent_inverse(phi);
+    let rotation = start.pose.rotation;
+    let world_load = turned(&start.pose, problem.loads.world[0]);
+    let mut slope = [[0.0; 6]; 6];
+    for (k, column) in columns.iter().enumerate() {
+        let turn = column.frame.angular;
+        let change = column.wrench + turned_by(world_load, turn);
+        let d_phi = j_inverse * turn;
+        let gap = rotation * column.frame.linear;
+        let force = rotation * (turn.cross(loaded.wrench.linear) + change.linear);
+        let moment = if end.turns() == Turns::Mixed {
+            let step = 1e-5;
+            let at = |sign: f64| so3_tangent(phi + d_phi * (sign * step)).transpose_mul(loaded.wrench.angular);
+            so3_tangent(phi).transpose_mul(change.angular) + (at(1.0) - at(-1.0)) * (0.5 / step)
+        } else {
+            change.angular
+        };
+        for (i, row) in slope.iter_mut().enumerate() {
+            row[k] = match (end.fixed[i], i < 3) {
+                (true, true) => d_phi[i],
+                (true, false) => gap[i - 3] / scale.length,
+                (false, true) => moment[i] / scale.moment,
+                (false, false) => force[i - 3] / scale.force,
+            };
+        }
+    }
+    slope
+}
