@@ -17,6 +17,7 @@ mod vec6;
 pub use lanes::Lanes;
 pub use mat3::Mat3;
 pub use mat6::{Lu, Mat6, lu};
+pub(crate) use pose::exp_rotation;
 pub use pose::{Pose, tangent, tangent_inverse};
 pub use quat::Quat;
 pub use real::Real;

@@ -55,15 +55,7 @@ impl<R: Real> Pose<R> {
         let (u, v) = (x.angular, x.linear);
         let t = u.dot(u);
         let k = exp_coefficients(t);
-        let a = R::one() - t * k.c;
-        let cos = R::one() - t * k.b;
-        // exp û = cos θ + a û + b u uᵀ, which saves forming û².
-        let (bu, au) = (u * k.b, u * a);
-        let rotation = Mat3::from_cols(
-            Vec3::new(cos + bu.x * u.x, bu.x * u.y + au.z, bu.x * u.z - au.y),
-            Vec3::new(bu.x * u.y - au.z, cos + bu.y * u.y, bu.y * u.z + au.x),
-            Vec3::new(bu.x * u.z + au.y, bu.y * u.z - au.x, cos + bu.z * u.z),
-        );
+        let rotation = exp_rotation(u, t, k.b, k.c);
         let uv = u.cross(v);
         Self { rotation, position: v + uv * k.b + u.cross(uv) * k.c }
     }
@@ -106,6 +98,19 @@ impl<R: Real> Pose<R> {
         let force = self.rotation * w.linear;
         Vec6::new(self.rotation * w.angular + self.position.cross(force), force)
     }
+}
+
+/// `exp û = cos θ + a û + b u uᵀ` from `t = θ²` and the coefficients `b` and `c` there, which saves forming `û²`.
+#[inline(always)]
+pub(crate) fn exp_rotation<R: Real>(u: Vec3<R>, t: R, b: R, c: R) -> Mat3<R> {
+    let (a, cos) = (R::one() - t * c, R::one() - t * b);
+    let (bu, au) = (u * b, u * a);
+    let (xy, xz, yz) = (bu.x * u.y, bu.x * u.z, bu.y * u.z);
+    Mat3::from_cols(
+        Vec3::new(cos + bu.x * u.x, xy + au.z, xz - au.y),
+        Vec3::new(xy - au.z, cos + bu.y * u.y, yz + au.x),
+        Vec3::new(xz + au.y, yz - au.x, cos + bu.z * u.z),
+    )
 }
 
 /// The tangent of the exponential `T(x) = Σ (−1)^k/(k+1)! ad_x^k`: `d exp(x) = exp(x) (T(x) dx)^`.

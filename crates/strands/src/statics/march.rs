@@ -4,10 +4,12 @@
 //! carries is known once its right element is solved, nothing is left to iterate over but each element's own small equation. Dead
 //! loads need the frame only where they act, which the march has. One pass, O(N), no allocation.
 
-use crate::element::{self, DiagonalPoint, PointStrains, exponent, solve_diagonal};
+use crate::element::{
+    self, DiagonalPoint, First, Fourth, LocalSolver, Multistep, PointStrains, Second, Straight, exponent,
+};
 use crate::load::NodalLoads;
-use crate::math::{Kernel, Pose, Real, SimdLevel, Strain, Vec6, Wrench, dispatch};
-use crate::rod::{Order, Rod};
+use crate::math::{Kernel, Pose, Real, SimdLevel, Strain, Vec3, Vec6, Wrench, dispatch};
+use crate::rod::{Kinematics, Order, Rod};
 
 use super::solution::Scheme;
 
@@ -47,15 +49,15 @@ impl Record {
 
 /// Watches a march go by.
 trait Watch<R: Real> {
-    fn element(&mut self, element: usize, wrench: Wrench<R>, strain: &PointStrains<R>, relative: &Pose<R>);
+    fn element(&mut self, element: usize, wrench: Wrench<R>, strains: &[Strain<R>], relative: &Pose<R>);
     fn node(&mut self, node: usize, pose: &Pose<R>);
 }
 
 impl Watch<f64> for Record {
     #[inline(always)]
-    fn element(&mut self, element: usize, wrench: Wrench, strain: &PointStrains, relative: &Pose) {
+    fn element(&mut self, element: usize, wrench: Wrench, strains: &[Strain], relative: &Pose) {
         self.wrenches[element] = wrench;
-        self.strains[element] = *strain;
+        self.strains[element][..strains.len()].copy_from_slice(strains);
         self.relative[element] = *relative;
     }
     #[inline(always)]
@@ -69,7 +71,7 @@ struct Blind;
 
 impl<R: Real> Watch<R> for Blind {
     #[inline(always)]
-    fn element(&mut self, _: usize, _: Wrench<R>, _: &PointStrains<R>, _: &Pose<R>) {}
+    fn element(&mut self, _: usize, _: Wrench<R>, _: &[Strain<R>], _: &Pose<R>) {}
     #[inline(always)]
     fn node(&mut self, _: usize, _: &Pose<R>) {}
 }
@@ -111,65 +113,54 @@ fn diagonal<R: Real, W: Watch<R>>(
     end: Section<R>,
     watch: &mut W,
 ) -> Section<R> {
-    const MULTISTEP: usize = 0;
-    macro_rules! with_order {
-        ($order:expr) => {
-            dispatch(level, DiagonalMarch::<R, W, { $order }> { rod, points, loads, end, watch })
+    macro_rules! with {
+        ($solver:ty) => {
+            dispatch(level, DiagonalMarch { rod, points, loads, end, watch, solver: <$solver as LocalSolver<R>>::new() })
         };
     }
-    match (scheme, rod.order()) {
-        (Scheme::Multistep, _) => with_order!(MULTISTEP),
-        (Scheme::Element, Order::First) => with_order!(1),
-        (Scheme::Element, Order::Second) => with_order!(2),
-        (Scheme::Element, Order::Fourth) => with_order!(4),
+    match (scheme, rod.order(), rod.kinematics()) {
+        (Scheme::Multistep, _, _) => with!(Multistep<R>),
+        (Scheme::Element, Order::First, _) => with!(First),
+        (Scheme::Element, Order::Second, Kinematics::Kirchhoff) => with!(Second<R, Straight<R>>),
+        (Scheme::Element, Order::Second, Kinematics::Cosserat) => with!(Second<R, Vec3<R>>),
+        (Scheme::Element, Order::Fourth, _) => with!(Fourth<R>),
     }
 }
 
-/// The march for diagonal laws, of a fixed order (0 for the multistep scheme).
-struct DiagonalMarch<'a, R: Real, W, const ORDER: usize> {
+/// The march for diagonal laws.
+struct DiagonalMarch<'a, R: Real, W, S> {
     rod: &'a Rod,
     points: &'a [DiagonalPoint],
     loads: &'a NodalLoads,
     end: Section<R>,
     watch: &'a mut W,
+    solver: S,
 }
 
-impl<R: Real, W: Watch<R>, const ORDER: usize> Kernel for DiagonalMarch<'_, R, W, ORDER> {
+impl<R: Real, W: Watch<R>, S: LocalSolver<R>> Kernel for DiagonalMarch<'_, R, W, S> {
     type Output = Section<R>;
 
     #[inline(always)]
     fn run(self) -> Section<R> {
-        let Self { rod, points, loads, end, watch } = self;
-        let order = rod.order();
-        let per_element = order.places().len();
+        let Self { rod, points, loads, end, watch, mut solver } = self;
         let nodes = rod.mesh().nodes();
+        let inner = 1..rod.elements();
+        let any = |loads: &[Wrench]| loads[inner.clone()].iter().any(|load| *load != Wrench::ZERO);
+        let (any_body, any_world) = (any(&loads.body), any(&loads.world));
         let Section { mut pose, mut wrench } = end;
-        let mut history = History::new();
         watch.node(rod.elements(), &pose);
         for e in (0..rod.elements()).rev() {
             let h = nodes[e + 1] - nodes[e];
-            let points = &points[e * per_element..(e + 1) * per_element];
-            let strain = match ORDER {
-                0 => history.multistep(h, &points[0], wrench),
-                1 => solve_diagonal::<R, 1>(h, points, wrench, [Vec6::zero(); 2]),
-                2 => {
-                    let strain = solve_diagonal::<R, 2>(h, points, wrench, history.predict::<1>(points, wrench));
-                    history.push::<1>(points, wrench, &strain);
-                    strain
-                }
-                _ => {
-                    let strain = solve_diagonal::<R, 4>(h, points, wrench, history.predict::<2>(points, wrench));
-                    history.push::<2>(points, wrench, &strain);
-                    strain
-                }
-            };
-            let relative = Pose::exp(exponent(order, h, &strain));
-            watch.element(e, wrench, &strain, &relative);
-            wrench = relative.carry_wrench(wrench);
-            pose = step_back(&pose, &relative);
+            let solved = solver.next(h, &points[e * S::POINTS..(e + 1) * S::POINTS], wrench);
+            watch.element(e, wrench, &solved.strains[..S::POINTS], &solved.relative);
+            wrench = solved.relative.carry_wrench(wrench);
+            pose = step_back(&pose, &solved.relative);
             watch.node(e, &pose);
-            if e > 0 {
-                wrench += loads.body[e].splat() + turned(&pose, loads.world[e].splat());
+            if any_world && e > 0 {
+                wrench += turned(&pose, loads.world[e].splat());
+            }
+            if any_body && e > 0 {
+                wrench += loads.body[e].splat();
             }
         }
         Section { pose, wrench }
@@ -199,7 +190,7 @@ fn general(rod: &Rod, scheme: Scheme, loads: &NodalLoads, end: Section, record: 
             .unwrap_or([Vec6::from([f64::NAN; 6]); 2]);
         last = [core::array::from_fn(|i| strain[i] - rest[i]), last[0]];
         let relative = Pose::exp(exponent(rod.order(), h, &strain));
-        record.element(e, wrench, &strain, &relative);
+        record.element(e, wrench, &strain[..points.len()], &relative);
         wrench = relative.carry_wrench(wrench);
         pose = step_back(&pose, &relative);
         record.node(e, &pose);
@@ -223,61 +214,3 @@ pub(crate) fn turned<R: Real>(pose: &Pose<R>, world: Wrench<R>) -> Wrench<R> {
     Wrench::new(pose.rotation.transpose_mul(world.angular), pose.rotation.transpose_mul(world.linear))
 }
 
-/// What the last elements needed beyond `ε̂ + S w`: it changes slowly along the rod, even across loads, and so extrapolates well.
-struct History<R> {
-    corrections: [PointStrains<R>; 3],
-    known: usize,
-}
-
-impl<R: Real> History<R> {
-    #[inline(always)]
-    fn new() -> Self {
-        Self { corrections: [[Vec6::zero(); 2]; 3], known: 0 }
-    }
-
-    #[inline(always)]
-    fn explicit(point: &DiagonalPoint, wrench: Wrench<R>) -> Strain<R> {
-        point.rest.splat::<R>() + point.compliance.splat::<R>().scale(wrench)
-    }
-
-    #[inline(always)]
-    fn predict<const POINTS: usize>(&self, points: &[DiagonalPoint], wrench: Wrench<R>) -> PointStrains<R> {
-        let [a, b, c] = &self.corrections;
-        let mut out = [Vec6::zero(); 2];
-        for i in 0..POINTS {
-            // Quadratic once three are known; before that the last one.
-            let extrapolated =
-                if self.known >= 3 { (a[i] - b[i]) * R::splat(3.0) + c[i] } else { a[i] };
-            out[i] = Self::explicit(&points[i], wrench) + extrapolated;
-        }
-        out
-    }
-
-    #[inline(always)]
-    fn push<const POINTS: usize>(&mut self, points: &[DiagonalPoint], wrench: Wrench<R>, strain: &PointStrains<R>) {
-        self.corrections[2] = self.corrections[1];
-        self.corrections[1] = self.corrections[0];
-        for i in 0..POINTS {
-            self.corrections[0][i] = strain[i] - Self::explicit(&points[i], wrench);
-        }
-        self.known += 1;
-    }
-
-    /// The strain of an element from those of its two neighbours; the first elements take what is known.
-    #[inline(always)]
-    fn multistep(&mut self, h: f64, point: &DiagonalPoint, wrench: Wrench<R>) -> PointStrains<R> {
-        let (compliance, rest) = (point.compliance.splat::<R>(), point.rest.splat::<R>());
-        let [a, b, _] = &self.corrections;
-        let elastic = match self.known {
-            0 => compliance.scale(wrench),
-            1 => a[0],
-            _ => a[0] * R::splat(2.0) - b[0],
-        };
-        let mean = element::mean_wrench((rest + elastic) * R::splat(h), wrench);
-        let elastic = compliance.scale(mean);
-        self.corrections[1] = self.corrections[0];
-        self.corrections[0][0] = elastic;
-        self.known += 1;
-        [rest + elastic; 2]
-    }
-}

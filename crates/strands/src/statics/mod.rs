@@ -8,6 +8,7 @@ mod boundary;
 mod march;
 mod path;
 mod problem;
+mod refine;
 mod shooting;
 mod solution;
 mod stability;
@@ -15,6 +16,7 @@ mod sweep;
 mod variation;
 
 pub use problem::{End, Problem};
+pub use refine::{RefineError, Refined, refine};
 pub use shooting::Workspace;
 pub use solution::{
     Energy, FailureReason, Guess, Jacobian, Method, Reaction, Scheme, Settings, Solution, SolveFailure, SolveReport,
@@ -237,3 +239,15 @@ impl Solution {
 
 #[cfg(test)]
 mod tests;
+
+/// temp
+pub fn bench_march(problem: &Problem, _settings: &Settings, workspace: &mut Workspace) -> f64 {
+    let state = EndState::from_guess(problem, &Guess { pose: problem.end.pose, wrench: Vec6::ZERO });
+    let end = state.section(problem);
+    let s = march::march(workspace.simd, &problem.rod, Scheme::Element, &problem.loads, end, &mut workspace.record);
+    s.pose.position.x
+}
+/// temp
+pub fn bench_jacobian(problem: &Problem, settings: &Settings, workspace: &mut Workspace) -> f64 {
+    shooting::bench_jacobian(problem, settings, workspace)
+}

@@ -1,7 +1,7 @@
 use super::*;
-use crate::load::{DistributedLoad, Frame, NodalLoads, PointLoad};
+use crate::load::{Frame, NodalLoads, PointLoad};
 use crate::math::{Pose, Quat, Wrench};
-use crate::rod::{Law, Order, Profile, RestShape, Rod, RodDescription, Stiffness};
+use crate::rod::{Law, Mesh, Order, Profile, RestShape, Rod, RodDescription, Stiffness};
 
 fn description(kinematics: Kinematics, rest: RestShape) -> RodDescription {
     let stiffness = Stiffness { bending: [0.05, 0.08], torsion: 0.04, axial: 900.0, shear: [300.0, 320.0] };
@@ -66,6 +66,49 @@ fn tip_error_falls_at_the_order_of_the_scheme() {
                 let slope = slope_of(error, coarse);
                 println!("{kinematics:?} {frame:?} {order:?}: slope {slope:.3}, error {:.2e}", error(2 * coarse));
             }
+        }
+    }
+}
+
+#[test]
+fn a_tolerance_is_met_with_fewer_elements_than_an_even_mesh_needs() {
+    // Soft over a short stretch: all of the bending is there.
+    for order in [Order::Second, Order::Fourth] {
+        let rest = RestShape::samples(vec![
+            (0.0, Vec3::ZERO),
+            (0.6, Vec3::ZERO),
+            (0.7, Vec3::new(0.0, 40.0, 0.0)),
+            (0.8, Vec3::new(0.0, 0.0, 30.0)),
+        ])
+        .unwrap();
+        let description = description(Kinematics::Kirchhoff, rest);
+        let posed = |rod: Rod| -> Result<Problem, crate::rod::RodError> {
+            let load = PointLoad {
+                at: 0.8,
+                wrench: Wrench::new(Vec3::ZERO, Vec3::new(0.1, 0.2, 0.05)),
+                frame: Frame::World,
+            };
+            let loads = NodalLoads::none(&rod).with_point(&rod, &load)?;
+            Ok(Problem { loads, ..Problem::cantilever(rod) })
+        };
+        let settings = Settings { tolerance: 1e-12, ..Settings::default() };
+        let on = |mesh: Mesh| {
+            let rod = Rod::new(description.clone(), mesh, order).unwrap();
+            tip(&solved(&posed(rod).unwrap(), &settings))
+        };
+        let exact = on(Mesh::even(0.8, 6400, &[0.6, 0.7]).unwrap());
+        for tolerance in [1e-3, 1e-5, 1e-7] {
+            if order == Order::Second && tolerance < 1e-6 {
+                continue;
+            }
+            let refined =
+                refine(&description, order, &[0.6, 0.7], tolerance, 100_000, &settings, posed).unwrap();
+            let error = exact.between(&tip(&refined.solution)).log().max_abs();
+            let n = refined.problem.rod.elements();
+            let even = exact.between(&on(Mesh::even(0.8, n, &[0.6, 0.7]).unwrap())).log().max_abs();
+            println!("{order:?} {tolerance:e}: {n} elements, error {error:.2e}, even {even:.2e}");
+            assert!(error <= tolerance, "{order:?} {tolerance:e}: {error:e} with {n}");
+            assert!(error <= even, "{order:?} {tolerance:e}: an even mesh does better, {even:e}");
         }
     }
 }

@@ -18,8 +18,14 @@
 //!
 //! Given `w`, the strain solves a small local equation; the functions here solve it, and linearise the solution.
 
+mod diagonal;
+
+pub(crate) use diagonal::{
+    DiagonalFlexibility, DiagonalPoint, First, Fourth, LocalSolver, Multistep, Second, Straight, diagonal_flexibility,
+};
+
 use crate::math::{
-    Mat3, Mat6, Real, Strain, Stress, Vec3, Vec6, Wrench, exp_coefficients, exp_coefficients_second, lu, tangent,
+    Mat3, Mat6, Real, Strain, Stress, Vec6, Wrench, exp_coefficients, exp_coefficients_second, lu, tangent,
 };
 use crate::rod::{Kinematics, Order, Point};
 
@@ -27,16 +33,6 @@ use crate::rod::{Kinematics, Order, Point};
 const GAUSS_OFFSET: f64 = 0.288_675_134_594_812_9;
 /// A local iteration that takes longer than this is not going to end.
 const MAX_LOCAL_ITERATIONS: usize = 60;
-/// How far, in rad or as a part, the strain over an element may be from the solution of its local equation.
-const LOCAL_TOLERANCE: f64 = 1e-14;
-
-/// The compliance and rest strain at one point of an element with a diagonal law. A strain that is not free has compliance zero.
-#[derive(Clone, Copy, Debug)]
-pub(crate) struct DiagonalPoint {
-    pub compliance: Vec6,
-    pub rest: Strain,
-}
-
 /// The strain at the points of an element, one or two of them.
 pub(crate) type PointStrains<R = f64> = [Strain<R>; 2];
 
@@ -107,142 +103,6 @@ pub(crate) fn exponent<R: Real>(order: Order, h: f64, strain: &PointStrains<R>) 
 fn gauss_stresses<R: Real>(h: f64, strain: &PointStrains<R>, mean: Stress<R>) -> [Stress<R>; 2] {
     let k = R::splat(GAUSS_OFFSET * h);
     [mean + strain[1].coadjoint(mean) * k, mean - strain[0].coadjoint(mean) * k]
-}
-
-/// Solves the local equation of an element with a diagonal law: the strains that go with the wrench `w` through node `b`, from a
-/// guess. Lanes that do not converge come back as NaN.
-///
-/// A Newton iteration whose matrix is the derivative of the equation's series up to second order, formed once: each pass
-/// gains a factor of about `θ³/24`, `θ` the turn along the element.
-#[inline(always)]
-pub(crate) fn solve_diagonal<R: Real, const ORDER: usize>(
-    h: f64,
-    points: &[DiagonalPoint],
-    w: Wrench<R>,
-    guess: PointStrains<R>,
-) -> PointStrains<R> {
-    match ORDER {
-        1 => {
-            let strain = points[0].rest.splat() + points[0].compliance.splat().scale(w);
-            [strain, strain]
-        }
-        2 => {
-            let strain = solve_second(h, &points[0], w, guess[0]);
-            [strain, strain]
-        }
-        _ => solve_fourth(h, [&points[0], &points[1]], w, guess),
-    }
-}
-
-#[inline(always)]
-fn solve_second<R: Real>(h: f64, point: &DiagonalPoint, w: Wrench<R>, guess: Strain<R>) -> Strain<R> {
-    let (compliance, rest) = (point.compliance.splat::<R>(), point.rest.splat::<R>());
-    let length = R::splat(h);
-    let newton = LocalNewton::new(h, compliance, guess, w);
-    let mut strain = guess;
-    for _ in 0..MAX_LOCAL_ITERATIONS {
-        let residual = rest + compliance.scale(mean_wrench(strain * length, w)) - strain;
-        let step = newton.step(residual);
-        strain += step;
-        if R::all(newton.converged(step)) {
-            return strain;
-        }
-    }
-    strain * R::splat(f64::NAN)
-}
-
-#[inline(always)]
-fn solve_fourth<R: Real>(
-    h: f64,
-    points: [&DiagonalPoint; 2],
-    w: Wrench<R>,
-    guess: PointStrains<R>,
-) -> PointStrains<R> {
-    let compliance = points.map(|point| point.compliance.splat::<R>());
-    let rest = points.map(|point| point.rest.splat::<R>());
-    let half = R::splat(0.5);
-    let mut strain = guess;
-    let newton =
-        LocalNewton::new(h, (compliance[0] + compliance[1]) * half, (guess[0] + guess[1]) * half, w);
-    for _ in 0..MAX_LOCAL_ITERATIONS {
-        let mean = mean_wrench(exponent(Order::Fourth, h, &strain), w);
-        let stress = gauss_stresses(h, &strain, mean);
-        let residual: [Strain<R>; 2] =
-            core::array::from_fn(|i| rest[i] + compliance[i].scale(stress[i]) - strain[i]);
-        let common_residual = (residual[0] + residual[1]) * half;
-        let common = newton.step(common_residual);
-        // The difference of the two strains follows from the mean one.
-        let follow = common.coadjoint(mean) * R::splat(GAUSS_OFFSET * h);
-        let step = [
-            residual[0] - common_residual + common + compliance[0].scale(follow),
-            residual[1] - common_residual + common - compliance[1].scale(follow),
-        ];
-        strain[0] += step[0];
-        strain[1] += step[1];
-        if R::all(R::and(newton.converged(step[0]), newton.converged(step[1]))) {
-            return strain;
-        }
-    }
-    strain.map(|strain| strain * R::splat(f64::NAN))
-}
-
-/// The approximate Newton matrix of the local equation, inverted.
-struct LocalNewton<R> {
-    h: R,
-    compliance: Vec6<R>,
-    half_force: Vec3<R>,
-    inverse: Mat3<R>,
-    theta2: R,
-}
-
-impl<R: Real> LocalNewton<R> {
-    #[inline(always)]
-    fn new(h: f64, compliance: Vec6<R>, strain: Strain<R>, w: Wrench<R>) -> Self {
-        let length = R::splat(h);
-        let (u, v, m, n) = (strain.angular * length, strain.linear * length, w.angular, w.linear);
-        let sixth = R::splat(1.0 / 6.0);
-        let turn = m * R::splat(0.5) + (u.cross(m) + v.cross(n)) * sixth;
-        let trace = (u.dot(m) + v.dot(n)) * sixth;
-        let one = R::one();
-        let (su, m6, n6) = (compliance.angular * length, m * sixth, n * sixth);
-        // 1 − h S ∂m̄/∂u with ∂m̄/∂u ≈ −(m/2 + (u×m + v×n)/6)^ − (m uᵀ + n vᵀ)/6 + (u·m + v·n)/6, row by row.
-        let row = |scale: R, hat: Vec3<R>, mi: R, ni: R| (hat + u * mi + v * ni) * scale;
-        let rows = [
-            row(su.x, Vec3::new(R::zero(), -turn.z, turn.y), m6.x, n6.x),
-            row(su.y, Vec3::new(turn.z, R::zero(), -turn.x), m6.y, n6.y),
-            row(su.z, Vec3::new(-turn.y, turn.x, R::zero()), m6.z, n6.z),
-        ];
-        let matrix = Mat3::from_cols(
-            Vec3::new(one - su.x * trace + rows[0].x, rows[0].y, rows[0].z),
-            Vec3::new(rows[1].x, one - su.y * trace + rows[1].y, rows[1].z),
-            Vec3::new(rows[2].x, rows[2].y, one - su.z * trace + rows[2].z),
-        );
-        Self {
-            h: length,
-            compliance,
-            half_force: n * (length * R::splat(0.5)),
-            inverse: matrix.inverse().transpose(),
-            theta2: u.dot(u),
-        }
-    }
-
-    #[inline(always)]
-    fn step(&self, residual: Strain<R>) -> Strain<R> {
-        let bent = self.compliance.angular.scale(residual.linear.cross(self.half_force));
-        let angular = self.inverse * (residual.angular + bent);
-        let sheared = self.compliance.linear.scale(angular.cross(self.half_force));
-        Strain::new(angular, residual.linear + sheared)
-    }
-
-    /// Whether what is left after a step is round-off: the next step would be smaller by about `θ²` or more.
-    #[inline(always)]
-    fn converged(&self, step: Strain<R>) -> R::Mask {
-        let (a, l) = (step.angular, step.linear);
-        let turn = (a.x.abs() + a.y.abs() + a.z.abs()) * self.h;
-        let shift = l.x.abs() + l.y.abs() + l.z.abs();
-        let size = turn + shift;
-        R::and(size.at_most(1e-9), (size * self.theta2).at_most(LOCAL_TOLERANCE))
-    }
 }
 
 /// Solves the local equation of an element of any law, by Newton's method with the exact derivative.
@@ -432,49 +292,6 @@ fn coadjoint_by_strain(stress: Stress) -> Mat6 {
 fn bracket_matrix(x: Vec6) -> Mat6 {
     let (u, v) = (Mat3::hat(x.angular), Mat3::hat(x.linear));
     Mat6 { blocks: [[u, Mat3::ZERO], [v, u]] }
-}
-
-/// The flexibility of an element of order 2 with a diagonal law, in the factors that are cheapest to apply: `T · inner · Tᵀ`, with `T`
-/// made of `turn` on its diagonal and `shift` below it.
-pub(crate) struct DiagonalFlexibility {
-    pub turn: Mat3,
-    pub shift: Mat3,
-    pub inner: [[Mat3; 2]; 2],
-}
-
-/// [`flexibility`] for order 2 and a diagonal law.
-#[inline(always)]
-pub(crate) fn diagonal_flexibility<const KIRCHHOFF: bool>(
-    h: f64,
-    point: &DiagonalPoint,
-    w: Wrench,
-    strain: &Strain,
-) -> DiagonalFlexibility {
-    let x = *strain * h;
-    let t = tangent(x);
-    let d = mean_wrench_derivative(x, w);
-    let (su, sv) = (point.compliance.angular * h, point.compliance.linear * h);
-    let scale_rows = |s: Vec3, m: Mat3| Mat3 { cols: m.cols.map(|c| c.scale(s)) };
-    let by_turn = scale_rows(su, d.moment_by_turn);
-    if KIRCHHOFF {
-        let a = (Mat3::IDENTITY - by_turn).inverse() * Mat3::diagonal(su);
-        return DiagonalFlexibility {
-            turn: t.blocks[0][0],
-            shift: t.blocks[1][0],
-            inner: [[a, Mat3::ZERO], [Mat3::ZERO, Mat3::ZERO]],
-        };
-    }
-    // (1 − S h K) δε = S Tᵀ δw; ∂n̄/∂v = 0, so the shifts are eliminated by hand.
-    let by_shift = scale_rows(su, d.moment_by_shift);
-    let c = scale_rows(sv, d.force_by_turn);
-    let schur = (Mat3::IDENTITY - by_turn - by_shift * c).inverse();
-    let a = schur * Mat3::diagonal(su);
-    let b = schur * by_shift * Mat3::diagonal(sv);
-    DiagonalFlexibility {
-        turn: t.blocks[0][0],
-        shift: t.blocks[1][0],
-        inner: [[a, b], [c * a, Mat3::diagonal(sv) + c * b]],
-    }
 }
 
 #[cfg(test)]
