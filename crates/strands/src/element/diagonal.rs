@@ -6,7 +6,7 @@
 
 use super::{GAUSS_OFFSET, MAX_LOCAL_ITERATIONS, PointStrains, exponent, gauss_stresses, mean_wrench};
 use crate::math::{
-    ExpCoefficients, Mat3, Pose, Real, Strain, Vec3, Vec6, Wrench, exp_coefficients, exp_coefficients_second, exp_rotation,
+    ExpCoefficients, Mat3, Mat6, Pose, Real, Strain, Vec3, Vec6, Wrench, exp_coefficients, exp_coefficients_second, exp_rotation,
 };
 use crate::rod::Order;
 
@@ -508,6 +508,15 @@ pub(crate) struct DiagonalFlexibility {
     pub turn: Mat3,
     pub shift: Mat3,
     pub inner: [[Mat3; 2]; 2],
+}
+
+impl DiagonalFlexibility {
+    /// As one matrix.
+    pub(crate) fn to_matrix(&self) -> Mat6 {
+        let zero = Mat3::ZERO;
+        let tangent = Mat6 { blocks: [[self.turn, zero], [self.shift, self.turn]] };
+        tangent.mul(&Mat6 { blocks: self.inner }).mul(&tangent.transpose())
+    }
 }
 
 /// [`flexibility`](super::flexibility) for order 2 and a diagonal law.

@@ -27,7 +27,7 @@ pub(crate) use diagonal::{
 use crate::math::{
     Mat3, Mat6, Real, Strain, Stress, Vec6, Wrench, exp_coefficients, exp_coefficients_second, lu, tangent,
 };
-use crate::rod::{Kinematics, Order, Point};
+use crate::rod::{Kinematics, Order, Point, Rod};
 
 /// `√3/6`, half the distance of the Gauss points over the element's length.
 const GAUSS_OFFSET: f64 = 0.288_675_134_594_812_9;
@@ -179,6 +179,20 @@ pub(crate) fn flexibility(
         *column = t.mul_vec(d_omega).to_array();
     }
     Some(Mat6::from_rows(&columns).transpose())
+}
+
+/// The [`flexibility`] of an element of a rod, by the quickest way that its law allows, taken as one of the given order.
+pub(crate) fn flexibility_of(rod: &Rod, e: usize, w: Wrench, strain: &PointStrains, order: Order) -> Option<Mat6> {
+    let h = rod.element_length(e);
+    match (order, rod.diagonal_points(), rod.kinematics()) {
+        (Order::Second, Some(points), Kinematics::Kirchhoff) => {
+            Some(diagonal_flexibility::<true>(h, &points[e], w, &strain[0]).to_matrix())
+        }
+        (Order::Second, Some(points), Kinematics::Cosserat) => {
+            Some(diagonal_flexibility::<false>(h, &points[e], w, &strain[0]).to_matrix())
+        }
+        _ => flexibility(order, rod.kinematics(), h, rod.points(e), w, strain),
+    }
 }
 
 /// The local equations `σ(ε) − T-stress = 0` of an element and their derivative, stiffness form, dense.

@@ -25,6 +25,7 @@ pub use solution::{
 use crate::math::{Vec3, Vec6};
 use crate::rod::Kinematics;
 use boundary::{EndState, loaded_start};
+use path::Route;
 use shooting::{Outcome, Search, shoot};
 
 /// Finds an equilibrium of a problem, starting from a guess (the last frame's solution) or from rest.
@@ -89,32 +90,32 @@ fn find(
     from_rest(problem, settings, workspace, report)
 }
 
-/// Walks from rest; where the end's place is prescribed, tries the sides to buckle to until the equilibrium found is stable.
+/// Walks from rest; where the end's place is prescribed, tries the routes to it and the sides to buckle to until the equilibrium found is
+/// stable.
 fn from_rest(
     problem: &Problem,
     settings: &Settings,
     workspace: &mut Workspace,
     report: &mut SolveReport,
 ) -> Search {
-    if !problem.end.fixed[3..].iter().any(|fixed| *fixed) {
-        return path::from_rest(problem, settings, None, workspace, report);
+    if !problem.end.fixed[3..].contains(&true) {
+        return path::from_rest(problem, settings, Route::Straight, Vec3::ZERO, workspace, report);
     }
-    let mut found: Option<Search> = None;
-    for nudge in path::nudges(problem) {
-        let search = path::from_rest(problem, settings, Some(nudge), workspace, report);
-        let better = found.is_none_or(|found| found.outcome != Outcome::Converged);
-        if search.outcome == Outcome::Converged {
-            if stability::morse_index(problem, &search.state, workspace).unwrap_or(0) == 0 {
-                return search;
-            }
+    let mut best: Option<Search> = None;
+    let routes = [Route::Straight, Route::MoveThenTurn];
+    for (nudge, route) in path::nudges(problem).into_iter().flat_map(|nudge| routes.map(|route| (nudge, route))) {
+        let search = path::from_rest(problem, settings, route, nudge, workspace, report);
+        let converged = search.outcome == Outcome::Converged;
+        if converged && stability::morse_index(problem, &search.state, workspace).unwrap_or(0) == 0 {
+            return search;
         }
-        if better {
-            found = Some(search);
+        if best.is_none_or(|best| best.outcome != Outcome::Converged && converged) {
+            best = Some(search);
         }
     }
-    // None of the sides gave a stable one: the first that converged, evaluated again so that its march is on record.
-    let found = found.unwrap_or_else(|| unreachable!("there are four sides"));
-    shoot(problem, settings, found.state, workspace, report)
+    // No way led to a stable one: the first that converged, evaluated again so that its march is on record.
+    let best = best.unwrap_or_else(|| unreachable!("there are four sides"));
+    shoot(problem, settings, best.state.moved(problem), workspace, report)
 }
 
 /// Why a problem is not even tried.
@@ -237,17 +238,7 @@ impl Solution {
     }
 }
 
+
+
 #[cfg(test)]
 mod tests;
-
-/// temp
-pub fn bench_march(problem: &Problem, _settings: &Settings, workspace: &mut Workspace) -> f64 {
-    let state = EndState::from_guess(problem, &Guess { pose: problem.end.pose, wrench: Vec6::ZERO });
-    let end = state.section(problem);
-    let s = march::march(workspace.simd, &problem.rod, Scheme::Element, &problem.loads, end, &mut workspace.record);
-    s.pose.position.x
-}
-/// temp
-pub fn bench_jacobian(problem: &Problem, settings: &Settings, workspace: &mut Workspace) -> f64 {
-    shooting::bench_jacobian(problem, settings, workspace)
-}

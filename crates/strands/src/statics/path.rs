@@ -1,24 +1,28 @@
 //! A way to the solution where a search from afar does not get there: a family of problems from one that is solved to the
 //! one that is asked for, walked in steps that adapt.
 //!
-//! From rest, the loads grow from nothing and the held end moves from where the unloaded rod has it; from a solution, the
-//! held end moves from where that solution has it. A rod pushed straight along its axis would stay on its straight,
-//! unstable branch; so on the way from rest a small force across the rod comes and goes, and the rod buckles to its side.
+//! From rest, first the loads grow from nothing on the rod with its end free, and then the end moves from there to where it is held. From
+//! a solution, the held end moves from where that solution has it. A rod pushed straight along its axis would stay on its straight,
+//! unstable branch (and an inextensible one cannot even start to move); so with the loads grows a small force across the rod, which
+//! bends it to one side, and it fades while the end moves.
+//!
+//! A step after which the rod is less stable than before has landed on another branch, and is made smaller.
 
 use super::boundary::{EndState, meet};
 use super::march::{Section, march};
-use super::problem::Problem;
+use super::problem::{End, Problem};
 use super::shooting::{Outcome, Search, Workspace, shoot};
+use super::stability::morse_index;
 use super::solution::{Guess, Scheme, Settings, SolveReport};
 use crate::load::NodalLoads;
-use crate::math::{Pose, Vec3, Wrench};
+use crate::math::{Pose, Quat, Vec3, Wrench};
 
 /// The first step of a way.
 const FIRST_STEP: f64 = 0.25;
 /// Iterations that a search on the way may take before the step counts as too long.
 const ITERATIONS_ON_THE_WAY: usize = 12;
-/// The force across the rod that comes and goes, all along it together, over `EI/L²` (the rod buckles between clamps at 39.5).
-const NUDGE: f64 = 3.0;
+/// The force across the rod, all along it together, over `EI/L²`: enough to bend a free rod by about a fifth of its length.
+const NUDGE: f64 = 2.0;
 
 /// The unloaded rod from its start's frame: the frame of its end, and no wrench.
 pub(crate) fn rest(problem: &Problem, workspace: &mut Workspace) -> Guess {
@@ -39,17 +43,59 @@ pub(crate) fn nudges(problem: &Problem) -> [Vec3; 4] {
     [soft, stiff, soft * -1.0, stiff * -1.0]
 }
 
-/// Walks from rest to the problem. `nudge` is the direction of the force that comes and goes.
+/// What changes on a way.
+#[derive(Clone, Copy)]
+enum Change {
+    /// The loads grow from nothing, and with them the force across the rod (N, all of it together).
+    LoadsGrow(Vec3),
+    /// The end moves, and the force across the rod fades.
+    EndMoves(Vec3),
+}
+
+/// How a held end gets to its place.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(crate) enum Route {
+    /// It moves and turns at once.
+    Straight,
+    /// It moves first, free to turn, and then turns.
+    MoveThenTurn,
+}
+
+/// Walks from rest to the problem. `nudge` is the direction of the force across the rod.
 pub(crate) fn from_rest(
     problem: &Problem,
     settings: &Settings,
-    nudge: Option<Vec3>,
+    route: Route,
+    nudge: Vec3,
     workspace: &mut Workspace,
     report: &mut SolveReport,
 ) -> Search {
-    let rest = rest(problem, workspace);
-    let total = nudge.map_or(Vec3::ZERO, |direction| direction * (NUDGE * problem.rod.scale().force));
-    walk(problem, &rest, true, total, settings, workspace, report)
+    let nudge = nudge * (NUDGE * problem.rod.scale().force);
+    let mut from = rest(problem, workspace);
+    if problem.end.fixed == [false; 6] && problem.end.grip.is_none() {
+        return walk(problem, &from, Change::LoadsGrow(Vec3::ZERO), settings, workspace, report);
+    }
+    let loose = Problem { end: End::free(from.pose), ..problem.clone() };
+    let mut stages = vec![(loose, Change::LoadsGrow(nudge))];
+    if route == Route::MoveThenTurn {
+        let mut pinned = problem.clone();
+        pinned.end.fixed[..3].fill(false);
+        stages.push((pinned, Change::EndMoves(nudge)));
+        stages.push((problem.clone(), Change::EndMoves(Vec3::ZERO)));
+    } else {
+        stages.push((problem.clone(), Change::EndMoves(nudge)));
+    }
+    let mut search = None;
+    for (stage, change) in &stages {
+        let reached = walk(stage, &from, *change, settings, workspace, report);
+        if reached.outcome != Outcome::Converged {
+            return reached;
+        }
+        let section = reached.state.section(stage);
+        from = Guess { pose: section.pose, wrench: section.wrench };
+        search = Some(reached);
+    }
+    search.unwrap_or_else(|| unreachable!("there are two stages or three"))
 }
 
 /// Walks from a solution of a problem that differs in where its end is held.
@@ -60,32 +106,41 @@ pub(crate) fn from_solution(
     workspace: &mut Workspace,
     report: &mut SolveReport,
 ) -> Search {
-    walk(problem, guess, false, Vec3::ZERO, settings, workspace, report)
+    walk(problem, guess, Change::EndMoves(Vec3::ZERO), settings, workspace, report)
 }
 
 fn walk(
     problem: &Problem,
     from: &Guess,
-    loads_grow: bool,
-    nudge: Vec3,
+    change: Change,
     settings: &Settings,
     workspace: &mut Workspace,
     report: &mut SolveReport,
 ) -> Search {
     let on_the_way = Settings { max_iterations: ITERATIONS_ON_THE_WAY, ..*settings };
     let mut family = problem.clone();
-    set(&mut family, problem, from, loads_grow, nudge, 0.0);
+    set(&mut family, problem, from, change, 0.0);
     let start = EndState::from_guess(&family, from);
     let mut search = shoot(&family, settings, start, workspace, report);
     let (mut at, mut step) = (0.0, FIRST_STEP);
     let smallest = 0.5_f64.powi(i32::try_from(settings.max_halvings).unwrap_or(i32::MAX)) * FIRST_STEP;
     let mut reached = search.state;
+    let mut index = morse_index(&family, &reached, workspace);
     while search.outcome == Outcome::Converged && at < 1.0 {
         let next = f64::min(at + step, 1.0);
-        set(&mut family, problem, from, loads_grow, nudge, next);
+        set(&mut family, problem, from, change, next);
         let before = report.iterations;
-        let tried = shoot(&family, &on_the_way, reached.moved(&family), workspace, report);
+        let mut tried = shoot(&family, &on_the_way, reached.moved(&family), workspace, report);
         report.path_steps += 1;
+        if tried.outcome == Outcome::Converged {
+            // A step that lost stability has landed on another branch, or passed a place where the rod would snap.
+            let now = morse_index(&family, &tried.state, workspace);
+            if now > index.max(Some(0)) {
+                tried.outcome = Outcome::Stalled;
+            } else {
+                index = now;
+            }
+        }
         if tried.outcome == Outcome::Converged {
             (at, reached, search) = (next, tried.state, tried);
             if report.iterations - before <= 5 {
@@ -100,23 +155,31 @@ fn walk(
     search
 }
 
-/// Sets the family to a place on the way.
-fn set(family: &mut Problem, problem: &Problem, from: &Guess, loads_grow: bool, nudge: Vec3, at: f64) {
+/// Sets the family to a place on the way. Places move on a straight line, which stays within the rod's reach.
+fn set(family: &mut Problem, problem: &Problem, from: &Guess, change: Change, at: f64) {
     let between = |target: &Pose| {
-        let way = from.pose.between(target).log();
-        from.pose.compose(&Pose::exp(way * at))
+        if at >= 1.0 {
+            return *target;
+        }
+        let turn = from.pose.between(target).log().angular;
+        Pose {
+            rotation: from.pose.rotation * Quat::from_rotation_vector(turn * at).to_matrix(),
+            position: from.pose.position + (target.position - from.pose.position) * at,
+        }
     };
-    family.end.pose = if at >= 1.0 { problem.end.pose } else { between(&problem.end.pose) };
+    family.end.pose = between(&problem.end.pose);
     if let (Some(moving), Some(grip)) = (&mut family.end.grip, &problem.end.grip) {
-        moving.hand = if at >= 1.0 { grip.hand } else { between(&grip.hand) };
+        moving.hand = between(&grip.hand);
     }
-    if loads_grow {
-        let nudge_now = nudge * (4.0 * at * (1.0 - at) / problem.rod.elements() as f64);
-        for (now, whole) in family.loads.world.iter_mut().zip(&problem.loads.world) {
-            *now = *whole * at + Wrench::new(Vec3::ZERO, nudge_now);
-        }
-        for (now, whole) in family.loads.body.iter_mut().zip(&problem.loads.body) {
-            *now = *whole * at;
-        }
+    let (share, nudge) = match change {
+        Change::LoadsGrow(nudge) => (at, nudge * at),
+        Change::EndMoves(nudge) => (1.0, nudge * (1.0 - at)),
+    };
+    let nudge = nudge * (1.0 / problem.rod.elements() as f64);
+    for (now, whole) in family.loads.world.iter_mut().zip(&problem.loads.world) {
+        *now = *whole * share + Wrench::new(Vec3::ZERO, nudge);
+    }
+    for (now, whole) in family.loads.body.iter_mut().zip(&problem.loads.body) {
+        *now = *whole * share;
     }
 }

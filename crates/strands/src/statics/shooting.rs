@@ -291,11 +291,21 @@ fn norm(residual: &[f64; 6]) -> f64 {
 fn largest(residual: &[f64; 6]) -> f64 {
     residual.iter().fold(0.0, |max: f64, x| if x.is_nan() || max.is_nan() { f64::NAN } else { max.max(x.abs()) })
 }
-pub fn bench_jacobian(problem: &Problem, settings: &Settings, workspace: &mut Workspace) -> f64 {
-    use super::solution::Guess;
-    let state = EndState::from_guess(problem, &Guess { pose: problem.end.pose, wrench: Vec6::ZERO });
-    let start = Section { pose: Pose::IDENTITY, wrench: Vec6::ZERO };
-    let point = Point { state, start, residual: [0.0; 6] };
-    let mut r = SolveReport::default();
-    jacobian(problem, Scheme::Element, settings.jacobian, &point, workspace, &mut r).unwrap()[0][0]
+
+/// The Jacobian at a guess by each way, for the test that compares them.
+#[cfg(test)]
+pub(crate) fn slopes(
+    problem: &Problem,
+    guess: &super::solution::Guess,
+) -> [(Jacobian, [[f64; 6]; 6]); 4] {
+    let mut workspace = Workspace::default();
+    let mut report = SolveReport::default();
+    let state = EndState::from_guess(problem, guess);
+    let point = evaluate(problem, Scheme::Element, state, &mut workspace, &mut report, false);
+    [Jacobian::VariationalLanes, Jacobian::Variational, Jacobian::FiniteDifferences, Jacobian::FiniteDifferenceLanes].map(
+        |how| {
+            let slope = jacobian(problem, Scheme::Element, how, &point, &mut workspace, &mut report);
+            (how, slope.unwrap_or([[f64::NAN; 6]; 6]))
+        },
+    )
 }

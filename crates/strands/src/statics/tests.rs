@@ -1,6 +1,7 @@
 use super::*;
-use crate::load::{Frame, NodalLoads, PointLoad};
-use crate::math::{Pose, Quat, Wrench};
+use crate::coupling::{Grip, VirtualCoupling};
+use crate::load::{DistributedLoad, Frame, NodalLoads, PointLoad};
+use crate::math::{Pose, Quat, SimdLevel, Wrench};
 use crate::rod::{Law, Mesh, Order, Profile, RestShape, Rod, RodDescription, Stiffness};
 
 fn description(kinematics: Kinematics, rest: RestShape) -> RodDescription {
@@ -57,17 +58,385 @@ fn tip_error_falls_at_the_order_of_the_scheme() {
     let settings = Settings { tolerance: 1e-13, ..Settings::default() };
     for kinematics in [Kinematics::Kirchhoff, Kinematics::Cosserat] {
         for frame in [Frame::World, Frame::Body] {
-            for (order, coarse) in [(Order::First, 512), (Order::Second, 64), (Order::Fourth, 32)] {
+            for (order, coarse) in [(Order::First, 1024), (Order::Second, 64), (Order::Fourth, 32)] {
                 let fine = tip(&solved(&loaded(kinematics, 32 * coarse, order, frame), &settings));
                 let error = |n| {
                     let tip = tip(&solved(&loaded(kinematics, n, order, frame), &settings));
                     fine.between(&tip).log().max_abs()
                 };
                 let slope = slope_of(error, coarse);
-                println!("{kinematics:?} {frame:?} {order:?}: slope {slope:.3}, error {:.2e}", error(2 * coarse));
+                let expected = order.as_number() as f64;
+                assert!((slope - expected).abs() < 0.1, "{kinematics:?} {frame:?} {order:?}: slope {slope:.3}");
             }
         }
     }
+}
+
+#[test]
+fn multistep_scheme_is_of_second_order() {
+    let settings = Settings { tolerance: 1e-13, scheme: Scheme::Multistep, ..Settings::default() };
+    for kinematics in [Kinematics::Kirchhoff, Kinematics::Cosserat] {
+        for frame in [Frame::World, Frame::Body] {
+            let fine = tip(&solved(&loaded(kinematics, 4096, Order::Second, frame), &settings));
+            let error = |n| {
+                let tip = tip(&solved(&loaded(kinematics, n, Order::Second, frame), &settings));
+                fine.between(&tip).log().max_abs()
+            };
+            let slope = slope_of(error, 128);
+            assert!((slope - 2.0).abs() < 0.1, "{kinematics:?} {frame:?}: slope {slope:.3}");
+        }
+    }
+}
+
+#[test]
+fn weight_keeps_the_order_for_any_number_of_elements() {
+    let settings = Settings { tolerance: 1e-13, ..Settings::default() };
+    let problem = |n: usize, order: Order| {
+        let rod = rod(Kinematics::Kirchhoff, curved(), n, order);
+        let loads = NodalLoads::none(&rod).with_gravity(&rod, Vec3::new(1.0, -3.0, -9.0));
+        Problem { loads, ..Problem::cantilever(rod) }
+    };
+    for (order, coarse) in [(Order::Second, 64), (Order::Fourth, 32), (Order::Fourth, 33)] {
+        let fine = tip(&solved(&problem(32 * coarse, order), &settings));
+        let error = |n| fine.between(&tip(&solved(&problem(n, order), &settings))).log().max_abs();
+        let slope = slope_of(error, coarse);
+        let expected = order.as_number() as f64;
+        assert!((slope - expected).abs() < 0.1, "{order:?} from {coarse}: slope {slope:.3}");
+    }
+}
+
+#[test]
+fn following_and_turning_distributed_loads_are_of_second_order() {
+    let settings = Settings { tolerance: 1e-13, ..Settings::default() };
+    let problem = |n: usize| {
+        let rod = rod(Kinematics::Cosserat, curved(), n, Order::Second);
+        let along = |frame, moment, force| DistributedLoad {
+            from: 0.0,
+            to: 0.8,
+            per_length: Wrench::new(moment, force),
+            frame,
+        };
+        let loads = NodalLoads::none(&rod)
+            .with_distributed(&rod, &along(Frame::Body, Vec3::new(0.01, 0.0, 0.02), Vec3::new(0.1, -0.1, 0.0)))
+            .and_then(|loads| loads.with_distributed(&rod, &along(Frame::World, Vec3::new(0.0, 0.03, 0.0), Vec3::X * 0.1)))
+            .unwrap();
+        Problem { loads, ..Problem::cantilever(rod) }
+    };
+    let fine = tip(&solved(&problem(2048), &settings));
+    let error = |n| fine.between(&tip(&solved(&problem(n), &settings))).log().max_abs();
+    let slope = slope_of(error, 64);
+    assert!((slope - 2.0).abs() < 0.1, "slope {slope:.3}");
+}
+
+#[test]
+fn force_and_moment_balance_to_roundoff_at_any_number_of_elements() {
+    for kinematics in [Kinematics::Kirchhoff, Kinematics::Cosserat] {
+        for order in [Order::First, Order::Second, Order::Fourth] {
+            for elements in [5, 50, 500] {
+                let mut problem = loaded(kinematics, elements, order, Frame::World);
+                problem.loads =
+                    problem.loads.clone().with_gravity(&problem.rod, Vec3::new(0.0, 1.0, -9.81));
+                let settings = Settings { tolerance: 1e-13, ..Settings::default() };
+                let free = solved(&problem, &settings);
+                let imbalance = free.imbalance(&problem);
+                assert!(imbalance < 1e-12, "{kinematics:?} {order:?} {elements}: free end {imbalance:e}");
+                problem.end = End::clamped(tip(&free));
+                let held = solve(&problem, &settings, Some(&free.guess), &mut Workspace::default()).unwrap();
+                let imbalance = held.imbalance(&problem);
+                assert!(imbalance < 1e-12, "{kinematics:?} {order:?} {elements}: held end {imbalance:e}");
+            }
+        }
+    }
+}
+
+#[test]
+fn solution_moves_with_the_problem() {
+    let motion = Pose::from_parts(
+        Vec3::new(-3.0, 2.0, 5.0),
+        Quat::from_wxyz([0.3, -0.5, 0.7, 0.4]).unwrap(),
+    );
+    let settings = Settings { tolerance: 1e-13, ..Settings::default() };
+    for order in [Order::First, Order::Second, Order::Fourth] {
+        let mut problem = loaded(Kinematics::Cosserat, 60, order, Frame::World);
+        problem.loads = problem.loads.clone().with_gravity(&problem.rod, Vec3::new(0.0, 1.0, -9.81));
+        let here = solved(&problem, &settings);
+        let mut description = problem.rod.description().clone();
+        description.base = motion.compose(&description.base);
+        let mut there = Problem::cantilever(Rod::with_elements(description, 60, &[], order).unwrap());
+        there.loads = problem.loads.clone();
+        for load in &mut there.loads.world {
+            *load = Wrench::new(motion.rotation * load.angular, motion.rotation * load.linear);
+        }
+        let there = solved(&there, &settings);
+        for (a, b) in here.poses.iter().zip(&there.poses) {
+            let gap = motion.compose(a).between(b).log().max_abs();
+            assert!(gap < 1e-12, "{order:?}: {gap:e}");
+        }
+    }
+}
+
+#[test]
+fn imposed_pose_and_imposed_wrench_agree() {
+    let settings = Settings { tolerance: 1e-11, ..Settings::default() };
+    for kinematics in [Kinematics::Kirchhoff, Kinematics::Cosserat] {
+        for order in [Order::First, Order::Second, Order::Fourth] {
+            // A place that the tip can be pulled and turned to: where a known wrench has it.
+            let pulled = loaded(kinematics, 100, order, Frame::World);
+            let target = tip(&solved(&pulled, &settings));
+            let rod = pulled.rod;
+            let loads = NodalLoads::none(&rod).with_gravity(&rod, Vec3::new(0.0, 0.5, -2.0));
+            let mut posed = Problem { loads, ..Problem::cantilever(rod) };
+            posed.end = End::clamped(target);
+            let posed_solution = solved(&posed, &settings);
+            let reaction = posed_solution.reactions[1];
+            let load = PointLoad {
+                at: posed.rod.length(),
+                wrench: Wrench::new(reaction.moment, reaction.force),
+                frame: Frame::World,
+            };
+            let mut loaded = posed.clone();
+            loaded.end = End::free(target);
+            loaded.loads = loaded.loads.with_point(&loaded.rod, &load).unwrap();
+            let back =
+                solve(&loaded, &settings, Some(&posed_solution.guess), &mut Workspace::default()).unwrap();
+            assert_eq!(back.report.method, Method::Sweep);
+            let gap = target.between(&tip(&back)).log().max_abs();
+            assert!(gap < 1e-9 * posed.rod.length(), "{kinematics:?} {order:?}: {gap:e}");
+        }
+    }
+}
+
+/// A tip held in every way that differs in kind, near a loaded shape.
+fn held_in_many_ways() -> Vec<(&'static str, [bool; 6])> {
+    let (f, t) = (false, true);
+    vec![
+        ("whole pose", [t; 6]),
+        ("position", [f, f, f, t, t, t]),
+        ("position and tangent", [t, t, f, t, t, t]),
+        ("orientation", [t, t, t, f, f, f]),
+        ("position and twist", [f, f, t, t, t, t]),
+        ("height", [f, f, f, f, f, t]),
+        ("plane and tangent", [t, t, f, t, f, f]),
+    ]
+}
+
+#[test]
+fn any_mix_of_the_six_can_be_held_and_what_is_free_bears_no_load() {
+    let settings = Settings { tolerance: 1e-11, ..Settings::default() };
+    for (name, fixed) in held_in_many_ways() {
+        let rod = rod(Kinematics::Kirchhoff, curved(), 80, Order::Second);
+        let loads = NodalLoads::none(&rod).with_gravity(&rod, Vec3::new(0.0, 1.0, -9.81));
+        let mut problem = Problem { loads, ..Problem::cantilever(rod) };
+        let hanging = tip(&solved(&problem, &settings));
+        let target = hanging
+            .compose(&Pose::exp(Vec6::new(Vec3::new(0.2, -0.3, 0.25), Vec3::new(0.03, -0.04, -0.05))));
+        problem.end = End { fixed, pose: target, grip: None };
+        let solution = solved(&problem, &settings);
+        let reached = tip(&solution);
+        let turn = target.between(&reached).log().angular;
+        let shift = reached.position - target.position;
+        let reaction = solution.reactions[1];
+        for i in 0..3 {
+            if fixed[3 + i] {
+                assert!(shift[i].abs() < 1e-10, "{name}: position {i} is off by {:e}", shift[i]);
+            } else {
+                assert!(reaction.force[i].abs() < 1e-12, "{name}: force {i} is {:e}", reaction.force[i]);
+            }
+            if fixed[i] {
+                assert!(turn[i].abs() < 1e-10, "{name}: turn {i} is off by {:e}", turn[i]);
+            }
+        }
+        if fixed[..3] == [false; 3] {
+            assert!(reaction.moment.max_abs() < 1e-12, "{name}");
+        }
+        if name == "position and tangent" {
+            let about_tangent = reaction.moment.dot(reached.rotation.cols[2]);
+            assert!(about_tangent.abs() < 1e-12, "{name}: moment about the tangent {about_tangent:e}");
+        }
+        assert!(solution.imbalance(&problem) < 1e-11, "{name}: {:e}", solution.imbalance(&problem));
+    }
+}
+
+#[test]
+fn a_start_that_is_only_pinned_bears_no_moment() {
+    let rod = rod(Kinematics::Cosserat, RestShape::default(), 60, Order::Second);
+    let loads = NodalLoads::none(&rod).with_gravity(&rod, Vec3::new(0.0, 0.5, -2.0));
+    let base = rod.description().base;
+    let far = base.compose(&Pose { rotation: crate::math::Mat3::IDENTITY, position: Vec3::new(0.1, 0.05, 0.7) });
+    let problem = Problem { rod, loads, start: End::pinned(base), end: End::clamped(far) };
+    let solution = solved(&problem, &Settings { tolerance: 1e-11, ..Settings::default() });
+    assert!(solution.reactions[0].moment.max_abs() < 1e-11, "{:?}", solution.reactions[0]);
+    assert!(solution.imbalance(&problem) < 1e-11);
+}
+
+#[test]
+fn every_jacobian_is_the_derivative_and_gives_the_same_solution() {
+    for kinematics in [Kinematics::Kirchhoff, Kinematics::Cosserat] {
+        for order in [Order::First, Order::Second, Order::Fourth] {
+            let rod = rod(kinematics, curved(), 40, order);
+            let loads = NodalLoads::none(&rod).with_gravity(&rod, Vec3::new(0.0, 1.0, -9.81));
+            let mut problem = Problem { loads, ..Problem::cantilever(rod) };
+            let free = solved(&problem, &Settings::default());
+            let target = tip(&free)
+                .compose(&Pose::exp(Vec6::new(Vec3::new(0.3, 0.1, 0.2), Vec3::new(0.02, 0.03, -0.05))));
+            problem.end = End::clamped(target);
+            let all = [
+                Jacobian::VariationalLanes,
+                Jacobian::Variational,
+                Jacobian::FiniteDifferences,
+                Jacobian::FiniteDifferenceLanes,
+            ];
+            let solutions = all.map(|jacobian| {
+                let settings = Settings { tolerance: 1e-12, jacobian, ..Settings::default() };
+                solved(&problem, &settings)
+            });
+            for (jacobian, solution) in all.iter().zip(&solutions) {
+                let gap = solution.guess.wrench - solutions[0].guess.wrench;
+                assert!(gap.max_abs() < 1e-10, "{kinematics:?} {order:?} {jacobian:?}: {gap:?}");
+            }
+            // Fresh at each step, the exact Jacobian converges quadratically; a wrong one would not.
+            let one = shooting::slopes(&problem, &solutions[0].guess);
+            for (jacobian, slope) in &one[1..] {
+                for i in 0..6 {
+                    for k in 0..6 {
+                        let exact = one[0].1[i][k];
+                        let scale = one[0].1[i].iter().fold(0.0_f64, |m, x| m.max(x.abs()));
+                        assert!(
+                            (slope[i][k] - exact).abs() <= 3e-6 * scale,
+                            "{kinematics:?} {order:?} {jacobian:?} ({i}, {k}): {} against {exact}",
+                            slope[i][k]
+                        );
+                    }
+                }
+            }
+        }
+    }
+}
+
+#[test]
+fn every_simd_level_gives_the_same_bits() {
+    for kinematics in [Kinematics::Kirchhoff, Kinematics::Cosserat] {
+        for order in [Order::First, Order::Second, Order::Fourth] {
+            let problem = loaded(kinematics, 50, order, Frame::World);
+            let at = |simd: SimdLevel| {
+                let mut workspace = Workspace::default();
+                workspace.simd = simd;
+                solve(&problem, &Settings::default(), None, &mut workspace).unwrap()
+            };
+            let plain = at(SimdLevel::Baseline);
+            for level in [SimdLevel::Avx2, SimdLevel::Avx512] {
+                let wide = at(level);
+                assert_eq!(plain.poses, wide.poses, "{kinematics:?} {order:?} {level:?}");
+                assert_eq!(plain.report, wide.report, "{kinematics:?} {order:?} {level:?}");
+            }
+        }
+    }
+}
+
+#[test]
+fn a_full_law_that_is_diagonal_gives_what_the_diagonal_law_gives() {
+    for kinematics in [Kinematics::Kirchhoff, Kinematics::Cosserat] {
+        for order in [Order::First, Order::Second, Order::Fourth] {
+            let plain = loaded(kinematics, 60, order, Frame::World);
+            let mut description = plain.rod.description().clone();
+            let Profile::Given { law, .. } = &mut description.profile else { unreachable!() };
+            let diagonal = law.tangent(Vec6::ZERO).to_rows();
+            *law = Law::full(diagonal).unwrap();
+            let rod = Rod::with_elements(description, 60, &[], order).unwrap();
+            let full = Problem { rod, ..plain.clone() };
+            let settings = Settings { tolerance: 1e-13, ..Settings::default() };
+            let gap = tip(&solved(&plain, &settings)).between(&tip(&solved(&full, &settings))).log();
+            assert!(gap.max_abs() < 1e-12, "{kinematics:?} {order:?}: {:e}", gap.max_abs());
+        }
+    }
+}
+
+#[test]
+fn a_stiffening_rod_bends_less_and_keeps_its_balance() {
+    let plain = loaded(Kinematics::Cosserat, 60, Order::Fourth, Frame::World);
+    let mut description = plain.rod.description().clone();
+    let Profile::Given { law: Law::Diagonal(stiffness), .. } = description.profile else { unreachable!() };
+    let energy = crate::rod::StiffeningEnergy {
+        stiffness,
+        doubling_strain: Vec6::from([2.0, 2.0, 2.0, 0.1, 0.1, 0.1]),
+    };
+    use crate::rod::StoredEnergy;
+    assert!(energy.check_derivatives(Vec6::from([1.0, -2.0, 0.5, 0.02, 0.01, -0.03])) < 1e-6);
+    description.profile = Profile::Given {
+        law: Law::Hyperelastic(std::sync::Arc::new(energy)),
+        mass_per_length: 0.02,
+        half_extent: [0.002; 2],
+    };
+    let stiffening = Problem { rod: Rod::with_elements(description, 60, &[], Order::Fourth).unwrap(), ..plain.clone() };
+    let settings = Settings { tolerance: 1e-12, ..Settings::default() };
+    let (soft, stiff) = (solved(&plain, &settings), solved(&stiffening, &settings));
+    assert!(stiff.energy.elastic < soft.energy.elastic);
+    assert!(stiff.imbalance(&stiffening) < 1e-12);
+}
+
+#[test]
+fn a_tip_out_of_reach_fails_and_says_by_how_much() {
+    let rod = rod(Kinematics::Kirchhoff, RestShape::default(), 50, Order::Second);
+    let base = rod.description().base;
+    let far = base.compose(&Pose { rotation: crate::math::Mat3::IDENTITY, position: Vec3::new(0.0, 0.3, 0.9) });
+    let problem = Problem { end: End::clamped(far), ..Problem::cantilever(rod) };
+    let failure = solve(&problem, &Settings::default(), None, &mut Workspace::default()).unwrap_err();
+    assert!(matches!(failure.reason, FailureReason::OutOfReach { .. }), "{failure}");
+    assert!(failure.nearest.report.residual > 0.1);
+    for pair in failure.nearest.poses.windows(2) {
+        let chord = (pair[1].position - pair[0].position).norm();
+        assert!(chord <= 0.8 / 50.0 * (1.0 + 1e-12), "an inextensible rod was stretched");
+    }
+}
+
+#[test]
+fn a_straight_rod_pushed_along_its_axis_buckles_to_a_stable_shape() {
+    for kinematics in [Kinematics::Kirchhoff, Kinematics::Cosserat] {
+        let rod = rod(kinematics, RestShape::default(), 100, Order::Second);
+        let base = rod.description().base;
+        let near = base.compose(&Pose { rotation: crate::math::Mat3::IDENTITY, position: Vec3::new(0.0, 0.0, 0.6) });
+        let problem = Problem { end: End::clamped(near), ..Problem::cantilever(rod) };
+        let solution = solved(&problem, &Settings::default());
+        assert_eq!(solution.report.morse_index, Some(0), "{kinematics:?}");
+        let middle = base.between(&solution.poses[50]).position;
+        // EI1 < EI2: it bends about d1 and moves along d2.
+        assert!(middle.y.abs() > 0.1 && middle.x.abs() < 1e-6, "{kinematics:?}: {middle:?}");
+    }
+}
+
+#[test]
+fn a_hand_on_a_stiff_coupling_pulls_the_tip_to_itself_and_its_wrench_balances() {
+    let rod = rod(Kinematics::Kirchhoff, curved(), 80, Order::Second);
+    let loads = NodalLoads::none(&rod).with_gravity(&rod, Vec3::new(0.0, 1.0, -9.81));
+    let mut problem = Problem { loads, ..Problem::cantilever(rod) };
+    let hanging = tip(&solved(&problem, &Settings::default()));
+    let hand = hanging.compose(&Pose::exp(Vec6::new(Vec3::new(0.3, -0.2, 0.4), Vec3::new(0.05, 0.02, -0.04))));
+    let coupling = VirtualCoupling {
+        linear_stiffness: 2000.0,
+        angular_stiffness: 20.0,
+        linear_damping: 0.0,
+        angular_damping: 0.0,
+        max_force: 10.0,
+        max_torque: 1.0,
+    };
+    let grip = Grip { coupling, hand, last: None };
+    problem.end = End::gripped(grip);
+    let settings = Settings { tolerance: 1e-11, ..Settings::default() };
+    let solution = solved(&problem, &settings);
+    let held = tip(&solution);
+    let spring = grip.wrench(&held);
+    assert!((spring.linear - solution.reactions[1].force).max_abs() < 1e-12);
+    assert!((held.position - hand.position).norm() < 0.02);
+    assert!(solution.imbalance(&problem) < 1e-10, "{:e}", solution.imbalance(&problem));
+    // Far beyond its length, the force stays at the device's limit and the inextensible strand keeps its length.
+    let away = Pose { position: hand.position + Vec3::new(3.0, 0.0, 0.0), ..hand };
+    let limited = VirtualCoupling { max_force: 0.4, max_torque: 0.01, ..coupling };
+    let grip = Grip { coupling: limited, hand: away, last: None };
+    problem.end = End::gripped(grip);
+    let pulled = solve(&problem, &settings, Some(&solution.guess), &mut Workspace::default());
+    let pulled = pulled.unwrap_or_else(|failure| panic!("{failure}"));
+    assert!(grip.saturated(&tip(&pulled)));
+    assert!((pulled.reactions[1].force.norm() - 0.4).abs() < 1e-12);
 }
 
 #[test]
@@ -112,3 +481,4 @@ fn a_tolerance_is_met_with_fewer_elements_than_an_even_mesh_needs() {
         }
     }
 }
+

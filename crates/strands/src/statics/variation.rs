@@ -44,65 +44,51 @@ pub(crate) fn vary(
             frame: Vec6::new(vector(&|v| v.frame.angular), vector(&|v| v.frame.linear)),
             wrench: Vec6::new(vector(&|v| v.wrench.angular), vector(&|v| v.wrench.linear)),
         };
-        let out = sweep::<Lanes<8>>(level, rod, loads, record, packed, &mut Unwatched)?;
+        let out = sweep::<Lanes<8>>(level, rod, loads, record, packed)?;
         let scatter = |v: Vec3<Lanes<8>>, i: usize| Vec3::new(v.x.0[i], v.y.0[i], v.z.0[i]);
         let part = |v: Vec6<Lanes<8>>, i: usize| Vec6::new(scatter(v.angular, i), scatter(v.linear, i));
         return Some(core::array::from_fn(|i| Variation { frame: part(out.frame, i), wrench: part(out.wrench, i) }));
     }
     let mut out = *columns;
     for column in &mut out {
-        *column = sweep::<f64>(level, rod, loads, record, *column, &mut Unwatched)?;
+        *column = sweep::<f64>(level, rod, loads, record, *column)?;
     }
     Some(out)
 }
 
-/// Watches the columns at each node.
-pub(crate) trait WatchColumns<R> {
-    fn node(&mut self, node: usize, columns: &Variation<R>);
-}
-
-struct Unwatched;
-
-impl<R> WatchColumns<R> for Unwatched {
-    #[inline(always)]
-    fn node(&mut self, _: usize, _: &Variation<R>) {}
-}
-
 #[inline]
-pub(crate) fn sweep<R: Real>(
+fn sweep<R: Real>(
     level: SimdLevel,
     rod: &Rod,
     loads: &NodalLoads,
     record: &Record,
     columns: Variation<R>,
-    watch: &mut impl WatchColumns<R>,
 ) -> Option<Variation<R>> {
     let diagonal = if rod.order() == Order::Second { rod.diagonal_points() } else { None };
     if diagonal.is_none() {
-        return general(rod, loads, record, columns, watch);
+        return general(rod, loads, record, columns);
     }
     let out = match rod.kinematics() {
-        Kinematics::Kirchhoff => dispatch(level, DiagonalSweep::<R, _, true> { rod, loads, record, columns, watch }),
-        Kinematics::Cosserat => dispatch(level, DiagonalSweep::<R, _, false> { rod, loads, record, columns, watch }),
+        Kinematics::Kirchhoff => dispatch(level, DiagonalSweep::<R, true> { rod, loads, record, columns }),
+        Kinematics::Cosserat => dispatch(level, DiagonalSweep::<R, false> { rod, loads, record, columns }),
     };
     Some(out)
 }
 
 /// The sweep for order 2 and diagonal laws: the hot path.
-struct DiagonalSweep<'a, R, W, const KIRCHHOFF: bool> {
+struct DiagonalSweep<'a, R, const KIRCHHOFF: bool> {
     rod: &'a Rod,
     loads: &'a NodalLoads,
     record: &'a Record,
     columns: Variation<R>,
-    watch: &'a mut W,
 }
 
-impl<R: Real, W: WatchColumns<R>, const KIRCHHOFF: bool> Kernel for DiagonalSweep<'_, R, W, KIRCHHOFF> {
+impl<R: Real, const KIRCHHOFF: bool> Kernel for DiagonalSweep<'_, R, KIRCHHOFF> {
     type Output = Variation<R>;
 
     #[inline(always)]
     fn run(self) -> Variation<R> {
-        let Self { rod, loads, record, mut columns, watch } = self;
+        let Self { rod, loads, record, mut columns } = self;
         let points = rod.diagonal_points().unwrap_or(&[]);
         let nodes = rod.mesh().nodes();
         for e in (0..rod.elements()).rev() {
@@ -112,7 +98,6 @@ impl<R: Real, W: WatchColumns<R>, const KIRCHHOFF: bool> Kernel for DiagonalSwee
                 element::diagonal_flexibility::<KIRCHHOFF>(h, &points[e], wrench, &record.strains[e][0]);
             let yielded = apply::<R, KIRCHHOFF>(&flexibility, columns.wrench);
             columns = carry(record, loads, e, wrench, columns, yielded);
-            watch.node(e, &columns);
         }
         columns
     }
@@ -147,7 +132,7 @@ fn transpose_mul<R: Real>(m: &Mat3, v: Vec3<R>) -> Vec3<R> {
 
 /// Takes the columns from the far to the near node of an element that yields by `xi`, and past the near node's loads.
 #[inline(always)]
-fn carry<R: Real>(
+pub(crate) fn carry<R: Real>(
     record: &Record,
     loads: &NodalLoads,
     e: usize,
@@ -177,16 +162,12 @@ fn general<R: Real>(
     loads: &NodalLoads,
     record: &Record,
     mut columns: Variation<R>,
-    watch: &mut impl WatchColumns<R>,
 ) -> Option<Variation<R>> {
     for e in (0..rod.elements()).rev() {
         let wrench = record.wrenches[e];
-        let h = rod.element_length(e);
-        let flexibility =
-            element::flexibility(rod.order(), rod.kinematics(), h, rod.points(e), wrench, &record.strains[e])?;
+        let flexibility = element::flexibility_of(rod, e, wrench, &record.strains[e], rod.order())?;
         let yielded = mul6(&flexibility, columns.wrench);
         columns = carry(record, loads, e, wrench, columns, yielded);
-        watch.node(e, &columns);
     }
     Some(columns)
 }
