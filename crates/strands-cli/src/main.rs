@@ -1,2 +1,93 @@
 //! The `strands` command.
-fn main() {}
+
+mod args;
+mod bench;
+mod drawing;
+mod new;
+mod overrides;
+mod page;
+mod solve;
+mod source;
+mod summary;
+mod units;
+mod view;
+
+use std::io::{IsTerminal, Write, stdout};
+use std::process::ExitCode;
+
+use args::{Arguments, Command};
+use clap::{CommandFactory, Parser};
+
+/// Why a command did not do what it was asked for.
+#[derive(Debug)]
+pub enum Failure {
+    /// A bad scene, a bad argument, a file that cannot be read or written: what to tell the person.
+    Bad(String),
+    /// A solve found no equilibrium; its answer has been printed.
+    Unsolved,
+}
+
+impl Failure {
+    fn bad(message: impl std::fmt::Display) -> Self {
+        Self::Bad(format!("error: {message}"))
+    }
+}
+
+fn main() -> ExitCode {
+    let arguments = match Arguments::try_parse() {
+        Ok(arguments) => arguments,
+        Err(error) => {
+            // Help and version go to standard output and are no failure. clap's own 2 here means a failed solve.
+            let code = if error.use_stderr() { ExitCode::from(1) } else { ExitCode::SUCCESS };
+            return if error.print().is_ok() { code } else { ExitCode::from(1) };
+        }
+    };
+    match run(arguments.command) {
+        Ok(()) => ExitCode::SUCCESS,
+        Err(Failure::Unsolved) => ExitCode::from(2),
+        Err(Failure::Bad(message)) => {
+            eprintln!("{}", message.trim_end());
+            ExitCode::from(1)
+        }
+    }
+}
+
+fn run(command: Command) -> Result<(), Failure> {
+    match command {
+        Command::Solve(options) => solve::run(&options),
+        Command::New(options) => new::run(&options),
+        Command::View(options) => view::run(&options),
+        Command::Bench { json } => {
+            let figures = bench::measure().map_err(Failure::bad)?;
+            if json {
+                say(&serde_json::json!({ "figures": figures }).to_string())
+            } else {
+                say(bench::table(&figures).trim_end())
+            }
+        }
+        Command::Schema => say(&source::schema()),
+        Command::Completions { shell } => {
+            let mut text = Vec::new();
+            clap_complete::generate(shell, &mut Arguments::command(), "strands", &mut text);
+            say(String::from_utf8_lossy(&text).trim_end())
+        }
+    }
+}
+
+/// Prints to standard output. A reader that has gone away, as `head` does, ends the command without a complaint.
+fn say(text: &str) -> Result<(), Failure> {
+    match writeln!(stdout(), "{text}") {
+        Err(error) if error.kind() != std::io::ErrorKind::BrokenPipe => Err(Failure::bad(error)),
+        _ => Ok(()),
+    }
+}
+
+/// Whether standard output takes colours.
+fn colour_out() -> bool {
+    stdout().is_terminal() && std::env::var_os("NO_COLOR").is_none()
+}
+
+/// Whether standard error takes colours.
+fn colour_err() -> bool {
+    std::io::stderr().is_terminal() && std::env::var_os("NO_COLOR").is_none()
+}

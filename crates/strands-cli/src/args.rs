@@ -1,0 +1,110 @@
+//! The arguments, as typed.
+
+use std::path::PathBuf;
+
+use clap::{Args, Parser, Subcommand, ValueEnum};
+use clap_complete::Shell;
+
+/// Interactive simulation of thin elastic solids: sutures, wires, cables, hair.
+#[derive(Debug, Parser)]
+#[command(name = "strands", version, disable_help_subcommand = true)]
+pub struct Arguments {
+    /// What to do.
+    #[command(subcommand)]
+    pub command: Command,
+}
+
+/// The commands.
+#[derive(Debug, Subcommand)]
+pub enum Command {
+    /// Find the equilibrium of a scene
+    Solve(Solve),
+    /// Show a scene in the browser, to hold in the hand
+    View(View),
+    /// Write a new scene file, with comments
+    New(New),
+    /// Print the JSON Schema of scene files
+    Schema,
+    /// Measure what the solvers cost on this machine
+    #[command(after_help = crate::bench::NAMES)]
+    Bench {
+        /// Print one JSON object: {"figures": [{"name", "value", "unit"}]}
+        #[arg(long)]
+        json: bool,
+    },
+    /// Print the completions for a shell
+    Completions {
+        /// Which shell
+        shell: Shell,
+    },
+}
+
+/// Which solver.
+#[derive(Clone, Copy, Debug, ValueEnum)]
+pub enum MethodName {
+    /// The one that fits
+    Auto,
+    /// Two sweeps: one end clamped, the wrench at the other given
+    Sweep,
+    /// A search for what is unknown at the end
+    Shooting,
+}
+
+/// `strands solve`.
+#[derive(Debug, Args)]
+#[command(after_help = "Exit status: 0 solved, 1 bad scene or arguments, 2 no equilibrium found.")]
+pub struct Solve {
+    /// A scene file (.toml or .json), `-` for standard input, or the bare name of a bundled scene
+    pub scene: String,
+    /// Write the result, in the format of the ending: .json .csv .vtp .glb .svg; may be repeated
+    #[arg(short, long, value_name = "FILE")]
+    pub output: Vec<PathBuf>,
+    /// Print one JSON object and nothing else
+    #[arg(long)]
+    pub json: bool,
+    #[command(flatten)]
+    pub overrides: Overrides,
+}
+
+/// Changes to the scene.
+#[derive(Debug, Default, Args)]
+pub struct Overrides {
+    /// Solver, in place of the scene's
+    #[arg(long)]
+    pub method: Option<MethodName>,
+    /// Order of accuracy, in place of the scene's
+    #[arg(long, value_parser = ["1", "2", "4"])]
+    pub order: Option<String>,
+    /// Elements of every rod, in place of the scene's
+    #[arg(long, value_name = "N")]
+    pub elements: Option<usize>,
+    /// Residual at which a solution is accepted, in place of the scene's
+    #[arg(long)]
+    pub tolerance: Option<f64>,
+    /// Change any key of the scene, such as rods.thread.length=0.2; may be repeated
+    #[arg(long, value_name = "KEY=VALUE")]
+    pub set: Vec<String>,
+}
+
+/// `strands view`.
+#[derive(Debug, Args)]
+pub struct View {
+    /// A scene file, `-` for standard input, or the bare name of a bundled scene
+    pub scene: Option<String>,
+    /// Port on this machine, in place of 7878 or the next free one
+    #[arg(long)]
+    pub port: Option<u16>,
+    /// Only print the address
+    #[arg(long)]
+    pub no_open: bool,
+}
+
+/// `strands new`.
+#[derive(Debug, Args)]
+pub struct New {
+    /// The scene's name; it is written to NAME.toml
+    pub name: String,
+    /// The bundled scene to start from
+    #[arg(long, default_value = "suture")]
+    pub template: String,
+}

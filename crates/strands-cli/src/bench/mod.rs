@@ -1,0 +1,196 @@
+//! `strands bench`: what the solvers cost on this machine.
+
+mod clock;
+mod problems;
+
+use std::hint::black_box;
+use std::time::Instant;
+
+use serde::Serialize;
+use strands::math::SimdLevel;
+use strands::rod::{Order, RodError};
+use strands::statics::{Guess, Jacobian, Problem, Scheme, Settings, Solution, SolveFailure, Workspace, solve};
+
+/// What `--help` says about the figures.
+pub const NAMES: &str = "\
+Figures (all of a steel wire 0.5 m long, 2 mm thick, one thread):
+  simd_width                       numbers of 64 bits in one vector instruction
+  sweep.order1 .order2 .order4 .multistep
+                                   two-sweep solve of 100 elements, with its energy and
+                                   stresses, µs; with .element, ns an element
+  warm.median warm.p999            both ends held, 100 elements, under gravity, residual
+                                   1e-10: solve after the hand moved by 0.3 % of the length
+                                   and 1°, from the last solution, µs
+  warm.iterations                  mean Newton iterations of those
+  jacobian.variational_lanes .variational .finite_differences .finite_difference_lanes
+                                   one Jacobian, over one sweep of the same rod (from times of
+                                   whole solves that differ by it)
+  cost.50 … cost.5000              two-sweep solve of that many elements, ns an element
+  cost.worst_over_best             the largest of those over the smallest
+
+Times are medians of batches that take turns.";
+
+/// One measured number.
+#[derive(Debug, Serialize)]
+pub struct Figure {
+    /// Its name, which stays the same.
+    pub name: String,
+    /// Its value.
+    pub value: f64,
+    /// Its unit.
+    pub unit: &'static str,
+}
+
+/// Why there is no figure.
+#[derive(Debug, thiserror::Error)]
+pub enum BenchError {
+    /// A rod could not be built.
+    #[error(transparent)]
+    Rod(#[from] RodError),
+    /// A problem could not be solved.
+    #[error(transparent)]
+    Solve(#[from] Box<SolveFailure>),
+}
+
+/// Measures everything.
+pub fn measure() -> Result<Vec<Figure>, BenchError> {
+    let mut figures = vec![figure("simd_width", SimdLevel::detect().width() as f64, "numbers")];
+    figures.extend(sweeps()?);
+    figures.extend(warm()?);
+    figures.extend(jacobians()?);
+    figures.extend(cost()?);
+    Ok(figures)
+}
+
+/// The figures as a table for people.
+pub fn table(figures: &[Figure]) -> String {
+    let wide = figures.iter().map(|figure| figure.name.len()).max().unwrap_or(0);
+    let line = |figure: &Figure| format!("  {:<wide$}  {:>10}  {}\n", figure.name, crate::units::digits(figure.value, 4), figure.unit);
+    let lines: String = figures.iter().map(line).collect();
+    format!("Vector instructions: {}\n{lines}", SimdLevel::detect().name())
+}
+
+fn figure(name: impl Into<String>, value: f64, unit: &'static str) -> Figure {
+    Figure { name: name.into(), value, unit }
+}
+
+/// The two-sweep solve by each scheme.
+fn sweeps() -> Result<Vec<Figure>, BenchError> {
+    const ELEMENTS: usize = 100;
+    let schemes = [
+        ("order1", Order::First, Scheme::Element),
+        ("order2", Order::Second, Scheme::Element),
+        ("order4", Order::Fourth, Scheme::Element),
+        ("multistep", Order::Second, Scheme::Multistep),
+    ];
+    let mut runs = Vec::new();
+    for (_, order, scheme) in schemes {
+        let problem = problems::standard(ELEMENTS, order)?;
+        runs.push(repeated(problem, Settings { scheme, ..Settings::default() }, None)?);
+    }
+    let times = clock::in_turn(&mut runs);
+    let figures = schemes.iter().zip(times).flat_map(|((name, ..), time)| {
+        [
+            figure(format!("sweep.{name}"), time * 1e6, "µs"),
+            figure(format!("sweep.{name}.element"), time * 1e9 / ELEMENTS as f64, "ns"),
+        ]
+    });
+    Ok(figures.collect())
+}
+
+/// The interactive solve: the last solution is the guess for the next place of the hand.
+fn warm() -> Result<Vec<Figure>, BenchError> {
+    const STEPS: usize = 20_000;
+    let settings = Settings { tolerance: 1e-10, ..Settings::default() };
+    let mut workspace = Workspace::default();
+    let mut problem = problems::held(100, problems::home())?;
+    let mut guess = solved(&problem, &settings, None, &mut workspace)?.guess;
+    let (mut times, mut iterations) = (Vec::with_capacity(STEPS), 0);
+    for place in problems::wander(STEPS) {
+        problem.end.pose = place;
+        let start = Instant::now();
+        let solution = black_box(solve(&problem, &settings, Some(&guess), &mut workspace));
+        times.push(start.elapsed().as_secs_f64());
+        let solution = solution.map_err(Box::new)?;
+        iterations += solution.report.iterations;
+        guess = solution.guess;
+    }
+    Ok(vec![
+        figure("warm.median", clock::quantile(&mut times, 0.5) * 1e6, "µs"),
+        figure("warm.p999", clock::quantile(&mut times, 0.999) * 1e6, "µs"),
+        figure("warm.iterations", iterations as f64 / STEPS as f64, "iterations"),
+    ])
+}
+
+/// One Jacobian by each of the four ways, over one sweep.
+///
+/// The library gives whole solves; the parts come from their differences. A solve that starts at its solution takes one sweep and no
+/// Jacobian; one that starts where the hand was takes so many sweeps and Jacobians more.
+fn jacobians() -> Result<Vec<Figure>, BenchError> {
+    let ways = [
+        ("variational_lanes", Jacobian::VariationalLanes),
+        ("variational", Jacobian::Variational),
+        ("finite_differences", Jacobian::FiniteDifferences),
+        ("finite_difference_lanes", Jacobian::FiniteDifferenceLanes),
+    ];
+    let settings = |jacobian| Settings { jacobian, tolerance: 1e-10, ..Settings::default() };
+    let mut workspace = Workspace::default();
+    let mut problem = problems::held(100, problems::home())?;
+    let guess = solved(&problem, &settings(Jacobian::default()), None, &mut workspace)?.guess;
+    problem.end.pose = problems::wander(1)[0];
+    let moved = solved(&problem, &settings(Jacobian::default()), Some(&guess), &mut workspace)?;
+
+    let mut runs = vec![repeated(problem.clone(), settings(Jacobian::default()), Some(moved.guess))?];
+    for (_, way) in ways {
+        runs.push(repeated(problem.clone(), settings(way), Some(guess))?);
+    }
+    let times = clock::in_turn(&mut runs);
+    let (none, by_way) = (times[0], &times[1..]);
+    let (sweeps, jacobians) = (moved.report.sweeps as f64 - 1.0, moved.report.jacobians as f64);
+    // By finite differences a Jacobian is six sweeps and hardly more, which gives the time of one sweep.
+    let sweep = (by_way[2] - none) / (sweeps + 6.0 * jacobians);
+    let figures = ways.iter().zip(by_way).map(|((name, _), time)| {
+        figure(format!("jacobian.{name}"), (time - none - sweeps * sweep) / (jacobians * sweep), "sweeps")
+    });
+    Ok(figures.collect())
+}
+
+/// The cost of an element against how many there are.
+fn cost() -> Result<Vec<Figure>, BenchError> {
+    let sizes = [50, 100, 200, 500, 1000, 2000, 5000];
+    let mut runs = Vec::new();
+    for elements in sizes {
+        runs.push(repeated(problems::standard(elements, Order::Second)?, Settings::default(), None)?);
+    }
+    let times = clock::in_turn(&mut runs);
+    let each: Vec<f64> = sizes.iter().zip(times).map(|(n, time)| time * 1e9 / *n as f64).collect();
+    let best = each.iter().copied().fold(f64::INFINITY, f64::min);
+    let worst = each.iter().copied().fold(0.0, f64::max);
+    let mut figures: Vec<Figure> =
+        sizes.iter().zip(&each).map(|(n, value)| figure(format!("cost.{n}"), *value, "ns")).collect();
+    figures.push(figure("cost.worst_over_best", worst / best, "ratio"));
+    Ok(figures)
+}
+
+fn solved(
+    problem: &Problem,
+    settings: &Settings,
+    guess: Option<&Guess>,
+    workspace: &mut Workspace,
+) -> Result<Solution, BenchError> {
+    solve(problem, settings, guess, workspace).map_err(|failure| BenchError::Solve(Box::new(failure)))
+}
+
+/// A run that solves a problem again and again, after it was seen to be solved.
+fn repeated(
+    problem: Problem,
+    settings: Settings,
+    guess: Option<Guess>,
+) -> Result<Box<dyn FnMut()>, BenchError> {
+    let mut workspace = Workspace::default();
+    solved(&problem, &settings, guess.as_ref(), &mut workspace)?;
+    Ok(Box::new(move || {
+        let solution = solve(black_box(&problem), &settings, guess.as_ref(), &mut workspace);
+        let _ = black_box(solution);
+    }))
+}

@@ -1,0 +1,84 @@
+//! Where a scene comes from: a file, standard input, or the scenes that this program brings.
+
+use std::io::Read;
+use std::path::{Path, PathBuf};
+
+use strands_scene::Scene;
+
+use crate::{Failure, colour_err};
+
+/// A scene's text and what it takes to read it.
+#[derive(Clone, Debug)]
+pub struct Source {
+    /// The text.
+    pub text: String,
+    /// What to call it where something is wrong with it. Its ending tells TOML from JSON.
+    pub file_name: String,
+    /// Where the files that it names lie.
+    folder: Option<PathBuf>,
+}
+
+impl Source {
+    /// Reads the scene.
+    ///
+    /// # Errors
+    /// What is wrong, with the line, the key and a mend.
+    pub fn parse(&self) -> Result<Scene, Failure> {
+        Scene::parse(&self.text, &self.file_name, self.folder.as_deref())
+            .map_err(|error| Failure::Bad(error.render(colour_err())))
+    }
+
+    /// Whether the text is JSON.
+    pub fn is_json(&self) -> bool {
+        Path::new(&self.file_name).extension().is_some_and(|ending| ending.eq_ignore_ascii_case("json"))
+    }
+
+    /// The path under which the page finds the scene.
+    pub fn served_as(&self) -> &'static str {
+        if self.is_json() { "scene.json" } else { "scene.toml" }
+    }
+}
+
+/// Finds the scene that an argument means.
+///
+/// # Errors
+/// Where there is none.
+pub fn read(argument: &str) -> Result<Source, Failure> {
+    if argument == "-" {
+        let mut text = String::new();
+        std::io::stdin().read_to_string(&mut text).map_err(|error| Failure::bad(format!("standard input: {error}")))?;
+        let file_name = if text.trim_start().starts_with('{') { "stdin.json" } else { "stdin.toml" };
+        return Ok(Source { text, file_name: file_name.to_owned(), folder: Some(PathBuf::from(".")) });
+    }
+    let path = Path::new(argument);
+    let bare = path.extension().is_none() && path.components().count() == 1;
+    if bare && !path.exists() {
+        return bundled(argument);
+    }
+    let text = std::fs::read_to_string(path).map_err(|error| Failure::bad(format!("{argument}: {error}")))?;
+    let folder = path.parent().map(Path::to_path_buf);
+    Ok(Source { text, file_name: argument.to_owned(), folder })
+}
+
+/// A scene that this program brings.
+///
+/// # Errors
+/// Where there is none of that name: those there are, and the nearest.
+pub fn bundled(name: &str) -> Result<Source, Failure> {
+    if let Some(scene) = strands_scene::bundled_scene(name) {
+        return Ok(Source { text: scene.text.to_owned(), file_name: format!("{name}.toml"), folder: None });
+    }
+    let names: Vec<&str> = strands_scene::bundled().iter().map(|scene| scene.name).collect();
+    let distance = |other: &&&str| strsim::damerau_levenshtein(name, other);
+    let nearest = names.iter().min_by_key(distance).filter(|other| distance(other) <= 1 + other.len() / 3);
+    let hint = nearest.map_or_else(String::new, |other| format!("; did you mean `{other}`?"));
+    Err(Failure::bad(format!(
+        "there is no file and no bundled scene named `{name}`{hint}\nBundled scenes: {}",
+        names.join(", ")
+    )))
+}
+
+/// The JSON Schema of scene files.
+pub fn schema() -> String {
+    strands_scene::schema()
+}
