@@ -65,11 +65,12 @@ fn lint() -> Report {
 
 fn test() -> Report {
     let mut report = lint();
-    report.step("tests", checks::tests);
-    report.step("documentation", checks::documentation);
+    // The page before the tests: `strands view` is tested with what it serves.
     if report.step("wasm", || wasm::build().map(|()| report::ONE)) {
         web::steps(&mut report);
     }
+    report.step("tests", checks::tests);
+    report.step("documentation", checks::documentation);
     checks::dependencies(&mut report);
     report
 }

@@ -31,18 +31,26 @@ fn compile() -> Result<PathBuf, String> {
     let arguments = ["build", "--release", "--package", "strands-wasm", "--target", TARGET];
     // Vector instructions, which every browser of the last years has.
     let flags = "-C target-feature=+simd128";
-    let folder = target_folder();
-    match toolchain()? {
-        Toolchain::Own => run(cargo().env("RUSTFLAGS", flags).args(arguments))?,
-        // Debian ships the standard library of this target as source only.
-        Toolchain::Debian => run(Command::new("/usr/bin/cargo")
-            .current_dir(root())
-            .env("RUSTC", "/usr/bin/rustc")
-            .env("RUSTC_BOOTSTRAP", "1")
-            .env("RUSTFLAGS", format!("{flags} -C linker=wasm-ld-19"))
-            .args(arguments)
-            .arg("-Zbuild-std=std,panic_abort"))?,
-    }
+    let folder = match toolchain()? {
+        Toolchain::Own => {
+            run(cargo().env("RUSTFLAGS", flags).args(arguments))?;
+            target_folder()
+        }
+        // Debian ships the standard library of this target as source only. Its compiler has a target folder of its own, so that the two do not
+        // build each other's dependencies anew.
+        Toolchain::Debian => {
+            let folder = target_folder().join("debian");
+            run(Command::new("/usr/bin/cargo")
+                .current_dir(root())
+                .env("RUSTC", "/usr/bin/rustc")
+                .env("RUSTC_BOOTSTRAP", "1")
+                .env("RUSTFLAGS", format!("{flags} -C linker=wasm-ld-19"))
+                .env("CARGO_TARGET_DIR", &folder)
+                .args(arguments)
+                .arg("-Zbuild-std=std,panic_abort"))?;
+            folder
+        }
+    };
     Ok(folder.join(TARGET).join("release/strands_wasm.wasm"))
 }
 
