@@ -1,1 +1,83 @@
-//! Scene files.
+//! Scene files: what users write, as a model to solve, and the writers of what comes out.
+//!
+//! A scene goes text → [`SceneFile`] (as written) → [`Model`] (checked, SI, ready to solve). Everything that is wrong on the way is a
+//! [`SceneError`] that points at the line and says how to mend it. Solutions leave through [`write`].
+//!
+//! ```
+//! use strands::statics::{Workspace, solve};
+//! let scene = strands_scene::bundled_scene("cantilever").expect("it is bundled");
+//! let scene = strands_scene::Scene::parse(scene.text, "cantilever.toml", None)?;
+//! let rod = &scene.model.rods[0];
+//! let solution = solve(&rod.problem, &scene.model.settings, None, &mut Workspace::default())?;
+//! let answer = strands_scene::write::json(&scene.model, &[(&rod.name, &solution)], None);
+//! # assert!(answer.contains("converged"));
+//! # Ok::<(), Box<dyn std::error::Error>>(())
+//! ```
+
+mod build;
+mod bundled;
+mod document;
+mod error;
+mod file;
+mod model;
+mod words;
+pub mod write;
+
+pub use bundled::{Bundled, bundled, bundled_scene};
+pub use error::SceneError;
+pub use file::*;
+pub use model::{MeshChoice, MeshError, Model, ModelRod};
+
+use document::{Document, KeyPath, Value};
+use std::path::Path;
+
+/// The version of the format that this crate reads.
+const FORMAT: i64 = 1;
+
+/// A scene, as written and as understood.
+#[derive(Clone, Debug)]
+pub struct Scene {
+    /// As written.
+    pub file: SceneFile,
+    /// As understood.
+    pub model: Model,
+}
+
+impl Scene {
+    /// Reads a scene from a text: JSON where `file_name` ends in `.json`, else TOML. Other files that it names are sought in `folder`.
+    ///
+    /// # Errors
+    /// The first thing that is wrong, with its place and a mend.
+    pub fn parse(text: &str, file_name: &str, folder: Option<&Path>) -> Result<Self, SceneError> {
+        let document = Document::parse(text, file_name)?;
+        check_format(&document)?;
+        let file: SceneFile = document::from_document(&document)?;
+        let model = build::model(&document, &file, folder)?;
+        Ok(Self { file, model })
+    }
+
+    /// Reads a scene from a file.
+    ///
+    /// # Errors
+    /// As [`Scene::parse`], and where the file cannot be read.
+    pub fn read(path: &Path) -> Result<Self, SceneError> {
+        let text = std::fs::read_to_string(path).map_err(|error| SceneError::unreadable(path, &error))?;
+        Self::parse(&text, &path.display().to_string(), path.parent())
+    }
+}
+
+/// The JSON Schema of scene files.
+pub fn schema() -> serde_json::Value {
+    schemars::schema_for!(SceneFile).to_value()
+}
+
+/// Refuses another version of the format before its unknown keys are complained about.
+fn check_format(document: &Document) -> Result<(), SceneError> {
+    let Value::Table(entries) = &document.root.value else { return Ok(()) };
+    match entries.iter().find(|entry| entry.key == "format").map(|entry| &entry.node.value) {
+        Some(Value::Whole(version)) if *version != FORMAT => Err(document
+            .error(&KeyPath::of("format"), format!("format {version} is not known"))
+            .mend(format!("this version reads format {FORMAT}: write `format = {FORMAT}`, or use a later version of Strands"))),
+        _ => Ok(()),
+    }
+}

@@ -1,0 +1,62 @@
+//! Checks of single numbers, with errors at their place.
+
+use crate::document::{Document, KeyPath, Step};
+use crate::error::SceneError;
+use crate::words;
+use strands::math::Quat;
+
+/// How far from one the length of a quaternion may be: what four decimals leave.
+const UNIT_SLACK: f64 = 1e-3;
+
+impl Document {
+    /// A number greater than zero.
+    pub fn positive(&self, path: &KeyPath, value: f64) -> Result<f64, SceneError> {
+        self.require(path, value, value > 0.0, "must be greater than zero")
+    }
+
+    /// A number that is not negative.
+    pub fn not_negative(&self, path: &KeyPath, value: f64) -> Result<f64, SceneError> {
+        self.require(path, value, value >= 0.0, "must not be negative")
+    }
+
+    /// A number that meets a condition.
+    pub fn require(&self, path: &KeyPath, value: f64, met: bool, must: &str) -> Result<f64, SceneError> {
+        if met {
+            return Ok(value);
+        }
+        let key = last_key(path);
+        let error = self.error(path, format!("{key} {must}, but is {value}"));
+        Err(match words::example(key) {
+            Some(example) => error.mend(example),
+            None => error,
+        })
+    }
+
+    /// A unit quaternion.
+    pub fn quaternion(&self, path: &KeyPath, wxyz: [f64; 4]) -> Result<Quat, SceneError> {
+        let norm = wxyz.iter().map(|c| c * c).sum::<f64>().sqrt();
+        match Quat::from_wxyz(wxyz) {
+            Some(unit) if (norm - 1.0).abs() <= UNIT_SLACK => Ok(unit),
+            Some(unit) => {
+                let [w, x, y, z] = unit.to_wxyz();
+                let error = self.error(
+                    path,
+                    format!("a quaternion [w, x, y, z] must have length 1, but this one has {norm:.4}"),
+                );
+                Err(error.mend(format!("if the direction is right, write [{w:.6}, {x:.6}, {y:.6}, {z:.6}]")))
+            }
+            None => Err(self
+                .error(path, format!("a quaternion [w, x, y, z] must have length 1, but this one has {norm}"))
+                .mend("no rotation is [1.0, 0.0, 0.0, 0.0]")),
+        }
+    }
+}
+
+/// The innermost key of a path.
+fn last_key(path: &KeyPath) -> &str {
+    let key = path.steps().iter().rev().find_map(|step| match step {
+        Step::Key(key) => Some(key.as_str()),
+        Step::Index(_) => None,
+    });
+    key.unwrap_or("the value")
+}

@@ -1,0 +1,61 @@
+//! From a scene as written to a model: every number checked, every default filled in.
+
+mod check;
+mod hold;
+mod load;
+mod profile;
+mod rest;
+mod rod;
+mod settings;
+mod table;
+
+use crate::document::{Document, KeyPath};
+use crate::error::SceneError;
+use crate::file::SceneFile;
+use crate::model::Model;
+use indexmap::IndexMap;
+use std::path::Path;
+use strands::math::Vec3;
+use strands::rod::{Material, Order};
+
+/// What the parts of a scene need to know of the whole.
+struct Context<'a> {
+    document: &'a Document,
+    folder: Option<&'a Path>,
+    gravity: Vec3,
+    materials: IndexMap<&'a str, Material>,
+    order: Order,
+}
+
+/// Builds the model of a scene.
+pub(crate) fn model(
+    document: &Document,
+    file: &SceneFile,
+    folder: Option<&Path>,
+) -> Result<Model, SceneError> {
+    if file.name.trim().is_empty() {
+        let error = document.error(&KeyPath::of("name"), "the scene's name is empty");
+        return Err(error.mend("give it a name, as `name = \"suture\"`"));
+    }
+    let context = Context {
+        document,
+        folder,
+        gravity: Vec3::from(file.gravity.unwrap_or_default()),
+        materials: settings::materials(document, file)?,
+        order: settings::order(document, file)?,
+    };
+    let settings = settings::solver(document, file)?;
+    settings::without_effect(document, file)?;
+    let mut rods = Vec::with_capacity(file.rods.len());
+    if file.rods.is_empty() {
+        return Err(document.error(&KeyPath::of("rods"), "there is no rod").mend("add one: `[rods.thread]`"));
+    }
+    let mut elements = 0;
+    for (name, rod) in &file.rods {
+        rods.push(rod::rod(&context, name, rod, &mut elements)?);
+    }
+    if let Some(coupling) = &file.coupling {
+        hold::hand(document, &coupling.hand, &mut rods)?;
+    }
+    Ok(Model { name: file.name.clone(), gravity: context.gravity, rods, settings })
+}

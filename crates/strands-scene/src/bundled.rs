@@ -1,0 +1,42 @@
+//! The scenes that come with Strands.
+
+/// A bundled scene.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Bundled {
+    /// Its name, by which commands and the page know it.
+    pub name: &'static str,
+    /// One line on what it shows.
+    pub title: &'static str,
+    /// Its TOML.
+    pub text: &'static str,
+}
+
+macro_rules! scene {
+    ($name:literal, $title:literal) => {
+        Bundled {
+            name: $name,
+            title: $title,
+            text: include_str!(concat!("../../../scenes/", $name, ".toml")),
+        }
+    };
+}
+
+const SCENES: &[Bundled] = &[
+    scene!("suture", "A surgical thread between tissue and needle"),
+    scene!("telephone_cord", "A coiled cord, stretched"),
+    scene!("hanging_cable", "A steel cable hanging between two clamps"),
+    scene!("guidewire", "A guidewire with a soft J tip"),
+    scene!("ribbon", "A spring-steel strip, bent and turned"),
+    scene!("hair_curl", "A curl of hair under its own weight"),
+    scene!("cantilever", "A clamped strip with a force at its end"),
+];
+
+/// All bundled scenes.
+pub fn bundled() -> &'static [Bundled] {
+    SCENES
+}
+
+/// The bundled scene of a name.
+pub fn bundled_scene(name: &str) -> Option<&'static Bundled> {
+    SCENES.iter().find(|scene| scene.name == name)
+}

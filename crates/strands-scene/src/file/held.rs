@@ -1,0 +1,188 @@
+//! What holds a rod and what acts on it, as written: supports, loads, the hand.
+
+use schemars::{JsonSchema, Schema, SchemaGenerator, json_schema};
+use serde::de::{self, Deserializer, Visitor};
+use serde::ser::Serializer;
+use serde::{Deserialize, Serialize};
+use std::borrow::Cow;
+use std::fmt;
+
+/// A place on a rod: `"start"`, `"end"`, or metres of rest length from the start.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum Place {
+    /// `s = 0`.
+    Start,
+    /// `s = L`.
+    End,
+    /// Metres from the start.
+    At(f64),
+}
+
+/// A support.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields, expecting = "a table")]
+pub struct SupportFile {
+    /// Where: one of the rod's ends.
+    pub at: Place,
+    /// What it holds.
+    pub fix: Vec<FixName>,
+    /// Where it holds, m. Default: where the unloaded rod has this place.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub position: Option<[f64; 3]>,
+    /// The frame it holds, a unit quaternion `[w, x, y, z]`. Default: as the unloaded rod has it.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub orientation: Option<[f64; 4]>,
+}
+
+/// What a support holds.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, Serialize, Deserialize, JsonSchema)]
+#[serde(rename_all = "snake_case")]
+pub enum FixName {
+    /// The position along the world's x.
+    X,
+    /// The position along the world's y.
+    Y,
+    /// The position along the world's z.
+    Z,
+    /// `x`, `y` and `z`.
+    Position,
+    /// `tangent` and `twist`.
+    Orientation,
+    /// The direction of d3.
+    Tangent,
+    /// The turn about d3.
+    Twist,
+}
+
+/// A load: at a point (`at` with `force`, `moment`) or along a stretch (`from`, `to` with `force_per_length`, `moment_per_length`).
+#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields, expecting = "a table")]
+pub struct LoadFile {
+    /// Where it acts.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub at: Option<Place>,
+    /// Where the stretch starts. Default "start".
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub from: Option<Place>,
+    /// Where the stretch ends. Default "end".
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub to: Option<Place>,
+    /// Force, N.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub force: Option<[f64; 3]>,
+    /// Moment, N·m.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub moment: Option<[f64; 3]>,
+    /// Force per unit length, N/m.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub force_per_length: Option<[f64; 3]>,
+    /// Moment per unit length, N.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub moment_per_length: Option<[f64; 3]>,
+    /// The frame in which it is given and keeps its direction. Default "world".
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub frame: Option<FrameName>,
+}
+
+/// The frame in which a load keeps its direction.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
+#[serde(rename_all = "snake_case")]
+pub enum FrameName {
+    /// A dead load.
+    World,
+    /// A follower load.
+    Body,
+}
+
+/// Virtual couplings.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields, expecting = "a table")]
+pub struct CouplingFile {
+    /// The hand's.
+    pub hand: HandFile,
+}
+
+/// A hand that holds a rod's end through a spring and damper. It acts where someone moves the hand; a static solve of the scene
+/// holds the rod by its supports alone.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields, expecting = "a table")]
+pub struct HandFile {
+    /// The name of the rod that it holds.
+    pub rod: String,
+    /// Where it holds it. Default and only place so far: "end".
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub at: Option<Place>,
+    /// Stiffness against shifts, N/m.
+    pub linear_stiffness: f64,
+    /// Stiffness against turns, N·m/rad.
+    pub angular_stiffness: f64,
+    /// Damping of shifts, N·s/m. Default 0.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub linear_damping: Option<f64>,
+    /// Damping of turns, N·m·s/rad. Default 0.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub angular_damping: Option<f64>,
+    /// The largest force that the device gives, N. Default: no limit.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub max_force: Option<f64>,
+    /// The largest torque that the device gives, N·m. Default: no limit.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub max_torque: Option<f64>,
+}
+
+impl Serialize for Place {
+    fn serialize<S: Serializer>(&self, serializer: S) -> Result<S::Ok, S::Error> {
+        match self {
+            Self::Start => serializer.serialize_str("start"),
+            Self::End => serializer.serialize_str("end"),
+            Self::At(s) => serializer.serialize_f64(*s),
+        }
+    }
+}
+
+impl<'de> Deserialize<'de> for Place {
+    fn deserialize<D: Deserializer<'de>>(deserializer: D) -> Result<Self, D::Error> {
+        struct WordOrNumber;
+        impl Visitor<'_> for WordOrNumber {
+            type Value = Place;
+
+            fn expecting(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+                f.write_str("\"start\", \"end\", or metres from the rod's start")
+            }
+
+            fn visit_str<E: de::Error>(self, word: &str) -> Result<Place, E> {
+                match word {
+                    "start" => Ok(Place::Start),
+                    "end" => Ok(Place::End),
+                    _ => Err(E::unknown_variant(word, &["start", "end"])),
+                }
+            }
+
+            fn visit_f64<E: de::Error>(self, s: f64) -> Result<Place, E> {
+                Ok(Place::At(s))
+            }
+
+            fn visit_i64<E: de::Error>(self, s: i64) -> Result<Place, E> {
+                Ok(Place::At(s as f64))
+            }
+
+            fn visit_u64<E: de::Error>(self, s: u64) -> Result<Place, E> {
+                Ok(Place::At(s as f64))
+            }
+        }
+        deserializer.deserialize_any(WordOrNumber)
+    }
+}
+
+impl JsonSchema for Place {
+    fn schema_name() -> Cow<'static, str> {
+        "Place".into()
+    }
+
+    fn json_schema(_: &mut SchemaGenerator) -> Schema {
+        json_schema!({
+            "description": "A place on a rod: \"start\", \"end\", or metres of rest length from the start.",
+            "anyOf": [{ "enum": ["start", "end"] }, { "type": "number", "minimum": 0 }]
+        })
+    }
+}

@@ -1,0 +1,41 @@
+//! Solutions as text and bytes, one format a module. No file is touched here.
+//!
+//! Every writer takes the model that was solved and the solutions of its rods by name, in any order.
+//!
+//! # Panics
+//! Every writer, where a solution's name is not a rod of the model, or its mesh is not that rod's.
+
+mod json;
+
+pub use json::{failure_json, json};
+
+use crate::model::{Model, ModelRod};
+use strands::statics::Solution;
+
+/// A solved rod.
+#[derive(Clone, Copy)]
+struct Solved<'a> {
+    rod: &'a ModelRod,
+    solution: &'a Solution,
+}
+
+impl<'a> Solved<'a> {
+    /// The rods that were solved, in the order of the solutions.
+    fn all(model: &'a Model, solutions: &[(&str, &'a Solution)]) -> Vec<Self> {
+        let solved = |&(name, solution): &(&str, &'a Solution)| {
+            let rod = model.rod(name).unwrap_or_else(|| panic!("`{name}` is not a rod of the model"));
+            assert_eq!(
+                solution.poses.len(),
+                rod.problem.rod.mesh().nodes().len(),
+                "the mesh of `{name}` is another"
+            );
+            Self { rod, solution }
+        };
+        solutions.iter().map(solved).collect()
+    }
+
+    /// The nodes' places, m.
+    fn s(&self) -> &'a [f64] {
+        self.rod.problem.rod.mesh().nodes()
+    }
+}
