@@ -5,9 +5,20 @@
 //! # Panics
 //! Every writer, where a solution's name is not a rod of the model, or its mesh is not that rod's.
 
+mod colour;
+mod csv;
+mod glb;
 mod json;
+mod svg;
+mod tube;
+mod view;
+mod vtp;
 
+pub use csv::csv;
+pub use glb::glb;
 pub use json::{failure_json, json};
+pub use svg::svg;
+pub use vtp::vtp;
 
 use crate::model::{Model, ModelRod};
 use strands::statics::Solution;
@@ -37,5 +48,15 @@ impl<'a> Solved<'a> {
     /// The nodes' places, m.
     fn s(&self) -> &'a [f64] {
         self.rod.problem.rod.mesh().nodes()
+    }
+
+    /// The bending curvature `√(κ1² + κ2²)` at the nodes, 1/m, each the mean of its two elements.
+    fn curvature_at_nodes(&self) -> Vec<f64> {
+        let of_element: Vec<f64> =
+            self.solution.strain.iter().map(|strain| strain.angular.x.hypot(strain.angular.y)).collect();
+        let last = of_element.len() - 1;
+        (0..=of_element.len())
+            .map(|i| 0.5 * (of_element[i.saturating_sub(1)] + of_element[i.min(last)]))
+            .collect()
     }
 }
