@@ -6,7 +6,8 @@
 
 use super::{GAUSS_OFFSET, MAX_LOCAL_ITERATIONS, PointStrains, exponent, gauss_stresses, mean_wrench};
 use crate::math::{
-    ExpCoefficients, Mat3, Mat6, Pose, Real, Strain, Vec3, Vec6, Wrench, exp_coefficients, exp_coefficients_second, exp_rotation,
+    ExpCoefficients, Mat3, Mat6, Pose, Real, Strain, Vec3, Vec6, Wrench, exp_coefficients,
+    exp_coefficients_second, exp_rotation,
 };
 use crate::rod::Order;
 
@@ -26,8 +27,10 @@ pub(crate) struct DiagonalPoint {
 
 /// An element, solved.
 pub(crate) struct Solved<R> {
-    /// The strains at its points; the second is there for order 4 only.
-    pub strains: PointStrains<R>,
+    /// The strain at its first point.
+    pub strain: Strain<R>,
+    /// The strain at its second point; the same as the first where there is but one.
+    pub second: Strain<R>,
     /// The frame of its far node from its near node.
     pub relative: Pose<R>,
 }
@@ -115,7 +118,7 @@ impl<R: Real> LocalSolver<R> for First {
     #[inline(always)]
     fn next(&mut self, h: f64, points: &[DiagonalPoint], wrench: Wrench<R>) -> Solved<R> {
         let strain = points[0].explicit(wrench);
-        Solved { strains: [strain; 2], relative: Pose::exp(strain * R::splat(h)) }
+        Solved { strain, second: strain, relative: Pose::exp(strain * R::splat(h)) }
     }
 }
 
@@ -142,24 +145,29 @@ impl<R: Real> History<R> {
         Self { angular: [Vec3::zero(); ROOM], linear: [Vec3::zero(); ROOM], known: 0 }
     }
 
-    /// Through the last six, `6a − 15b + 20c − 15d + 6e − f`, or through as many as there are. The linear part only where it is free.
+    /// The next one. The linear part only where it is free.
     #[inline(always)]
     fn next<const FREE: bool>(&self) -> Vec6<R> {
-        let newest = self.known.wrapping_sub(1);
-        let extrapolate = |past: &[Vec3<R>; ROOM]| {
-            let ago = |i: usize| past[newest.wrapping_sub(i) % ROOM];
-            let k = R::splat;
-            match self.known {
-                0 => Vec3::zero(),
-                1 => ago(0),
-                2 => ago(0) * k(2.0) - ago(1),
-                3 => (ago(0) - ago(1)) * k(3.0) + ago(2),
-                4 => (ago(0) + ago(2)) * k(4.0) - ago(1) * k(6.0) - ago(3),
-                5 => (ago(0) - ago(3)) * k(5.0) + (ago(2) - ago(1)) * k(10.0) + ago(4),
-                _ => (ago(0) + ago(4)) * k(6.0) - (ago(1) + ago(3)) * k(15.0) + ago(2) * k(20.0) - ago(5),
-            }
-        };
-        Vec6::new(extrapolate(&self.angular), if FREE { extrapolate(&self.linear) } else { Vec3::zero() })
+        let linear = if FREE { Self::extrapolate(&self.linear, self.known) } else { Vec3::zero() };
+        Vec6::new(Self::extrapolate(&self.angular, self.known), linear)
+    }
+
+    /// Through the last six, `6a − 15b + 20c − 15d + 6e − f`, or through as many as there are.
+    #[inline(always)]
+    fn extrapolate(past: &[Vec3<R>; ROOM], known: usize) -> Vec3<R> {
+        let ago = |i: usize| past[known.wrapping_sub(1 + i) % ROOM];
+        let k = R::splat;
+        if known >= 6 {
+            return (ago(0) + ago(4)) * k(6.0) - (ago(1) + ago(3)) * k(15.0) + ago(2) * k(20.0) - ago(5);
+        }
+        match known {
+            0 => Vec3::zero(),
+            1 => ago(0),
+            2 => ago(0) * k(2.0) - ago(1),
+            3 => (ago(0) - ago(1)) * k(3.0) + ago(2),
+            4 => (ago(0) + ago(2)) * k(4.0) - ago(1) * k(6.0) - ago(3),
+            _ => (ago(0) - ago(3)) * k(5.0) + (ago(2) - ago(1)) * k(10.0) + ago(4),
+        }
     }
 
     #[inline(always)]
@@ -193,11 +201,8 @@ impl<R: Real, V: Shift<R>> LocalSolver<R> for Second<R, V> {
         let explicit = points[0].explicit(wrench);
         // The unknown is what the strain needs beyond the explicit one; for a straight element the linear part of everything is left alone.
         let mut correction = if V::FREE { self.history.next::<true>() } else { self.history.next::<false>() };
-        let sum = |correction: &Vec6<R>| {
-            let linear = if V::FREE { explicit.linear + correction.linear } else { points[0].rest.linear.splat() };
-            Vec6::new(explicit.angular + correction.angular, linear)
-        };
-        let mut strain = sum(&correction);
+        let straight = points[0].rest.linear.splat::<R>();
+        let mut strain = corrected::<R, V>(&explicit, &correction, straight);
         let mut newton: Option<LocalNewton<R>> = None;
         for iteration in 0..MAX_LOCAL_ITERATIONS {
             let (u, v) = (strain.angular * length, V::new(strain.linear, length));
@@ -222,7 +227,7 @@ impl<R: Real, V: Shift<R>> LocalSolver<R> for Second<R, V> {
                 newton.get_or_insert_with(|| LocalNewton::new(h, compliance, strain, wrench)).step(residual)
             };
             correction += step;
-            strain = sum(&correction);
+            strain = corrected::<R, V>(&explicit, &correction, straight);
             if near || R::all(gap.closed_by_second_order()) {
                 if V::FREE {
                     self.history.push::<true>(correction);
@@ -235,16 +240,27 @@ impl<R: Real, V: Shift<R>> LocalSolver<R> for Second<R, V> {
                 let (b, c) = (k.b + k.db * (t_now - t), k.c + k.dc * (t_now - t));
                 let relative =
                     Pose { rotation: exp_rotation(u, t_now, b, c), position: v.carried(u, t_now, b, c) };
-                return Solved { strains: [strain; 2], relative };
+                return Solved { strain, second: strain, relative };
             }
         }
         not_converged()
     }
 }
 
+/// The explicit strain with its correction, its linear part as it is at rest where that is not free.
+#[inline(always)]
+fn corrected<R: Real, V: Shift<R>>(
+    explicit: &Strain<R>,
+    correction: &Strain<R>,
+    straight: Vec3<R>,
+) -> Strain<R> {
+    let linear = if V::FREE { explicit.linear + correction.linear } else { straight };
+    Vec6::new(explicit.angular + correction.angular, linear)
+}
+
 fn not_converged<R: Real>() -> Solved<R> {
     let nan = Vec6::from([f64::NAN; 6]).splat();
-    Solved { strains: [nan; 2], relative: Pose::exp(nan) }
+    Solved { strain: nan, second: nan, relative: Pose::exp(nan) }
 }
 
 /// The parts of the local equation that its value and its steps share.
@@ -298,7 +314,8 @@ impl<R: Real> Linearisation<R> {
         if V::FREE {
             moment += r.linear.cross(n) * half;
         }
-        let once = Vec6::new(su.scale(moment), if V::FREE { sv.scale(a.cross(n)) * half } else { Vec3::zero() });
+        let once =
+            Vec6::new(su.scale(moment), if V::FREE { sv.scale(a.cross(n)) * half } else { Vec3::zero() });
         let mut moment = once.angular.cross(m) * half;
         if V::FREE {
             moment += once.linear.cross(n) * half;
@@ -306,7 +323,11 @@ impl<R: Real> Linearisation<R> {
         let twice_angular = su.scale(moment);
         Vec6::new(
             a + once.angular + twice_angular,
-            if V::FREE { r.linear + once.linear + sv.scale(once.angular.cross(n)) * half } else { Vec3::zero() },
+            if V::FREE {
+                r.linear + once.linear + sv.scale(once.angular.cross(n)) * half
+            } else {
+                Vec3::zero()
+            },
         )
     }
 }
@@ -389,9 +410,8 @@ impl<R: Real> LocalSolver<R> for Fourth<R> {
         for _ in 0..MAX_LOCAL_ITERATIONS {
             let mean = mean_wrench(exponent(Order::Fourth, h, &strains), wrench);
             let stress = gauss_stresses(h, &strains, mean);
-            let residual: PointStrains<R> = core::array::from_fn(|i| {
-                explicit[i] + compliance[i].scale(stress[i] - wrench) - strains[i]
-            });
+            let residual: PointStrains<R> =
+                core::array::from_fn(|i| explicit[i] + compliance[i].scale(stress[i] - wrench) - strains[i]);
             let common_residual = (residual[0] + residual[1]) * half;
             let common = newton.step(common_residual);
             // The difference of the two strains follows from the mean one.
@@ -406,7 +426,8 @@ impl<R: Real> LocalSolver<R> for Fourth<R> {
                 for i in 0..2 {
                     self.history[i].push::<true>(strains[i] - explicit[i]);
                 }
-                return Solved { strains, relative: Pose::exp(exponent(Order::Fourth, h, &strains)) };
+                let relative = Pose::exp(exponent(Order::Fourth, h, &strains));
+                return Solved { strain: strains[0], second: strains[1], relative };
             }
         }
         not_converged()
@@ -439,7 +460,7 @@ impl<R: Real> LocalSolver<R> for Multistep<R> {
         self.elastic = [compliance.scale(mean), self.elastic[0]];
         self.known += 1;
         let strain = rest + self.elastic[0];
-        Solved { strains: [strain; 2], relative: Pose::exp(strain * R::splat(h)) }
+        Solved { strain, second: strain, relative: Pose::exp(strain * R::splat(h)) }
     }
 }
 
@@ -503,11 +524,15 @@ impl<R: Real> LocalNewton<R> {
 }
 
 /// The flexibility of an element of order 2 with a diagonal law, in the factors that are cheapest to apply: `T · inner · Tᵀ`, with `T`
-/// made of `turn` on its diagonal and `shift` below it.
+/// made of `turn` on its diagonal and `shift` below it. `inner` takes a moment and a force `(m, n)` to a bend `a m + b n` and a
+/// stretch `stretch ∘ n + c bend`; only `a` is there where the linear strain is not free.
 pub(crate) struct DiagonalFlexibility {
     pub turn: Mat3,
     pub shift: Mat3,
-    pub inner: [[Mat3; 2]; 2],
+    pub a: Mat3,
+    pub b: Mat3,
+    pub c: Mat3,
+    pub stretch: Vec3,
 }
 
 impl DiagonalFlexibility {
@@ -515,7 +540,8 @@ impl DiagonalFlexibility {
     pub(crate) fn to_matrix(&self) -> Mat6 {
         let zero = Mat3::ZERO;
         let tangent = Mat6 { blocks: [[self.turn, zero], [self.shift, self.turn]] };
-        tangent.mul(&Mat6 { blocks: self.inner }).mul(&tangent.transpose())
+        let inner = [[self.a, self.b], [self.c * self.a, Mat3::diagonal(self.stretch) + self.c * self.b]];
+        tangent.mul(&Mat6 { blocks: inner }).mul(&tangent.transpose())
     }
 }
 
@@ -549,7 +575,8 @@ pub(crate) fn diagonal_flexibility<const KIRCHHOFF: bool>(
     let second = u.cross(first) + v.cross(un);
     // ∂m̄/∂u, with û m̂ = m uᵀ − u·m and the like.
     let coupling = (un * k.db + uun * k.dc) * 2.0;
-    let along_u = (first * k.db + second * k.dc + (un * ddb + uun * ddc) * twice) * 2.0 - m * k.c - n * (twice * k.dc);
+    let along_u =
+        (first * k.db + second * k.dc + (un * ddb + uun * ddc) * twice) * 2.0 - m * k.c - n * (twice * k.dc);
     let along_v = coupling - n * k.c;
     let trace = k.c * (u.dot(m) + v.dot(n)) + twice * k.dc * u.dot(n);
     let hat = m * k.b + first * k.c + n * (twice * k.db) + un * (twice * k.dc);
@@ -558,17 +585,15 @@ pub(crate) fn diagonal_flexibility<const KIRCHHOFF: bool>(
     if KIRCHHOFF {
         let a = scale_columns((Mat3::IDENTITY - scale_rows(su, moment_by_turn)).inverse(), su);
         let zero = Mat3::ZERO;
-        return DiagonalFlexibility { turn, shift, inner: [[a, zero], [zero, zero]] };
+        return DiagonalFlexibility { turn, shift, a, b: zero, c: zero, stretch: Vec3::ZERO };
     }
-    let (hat_u, hat_n) = (Mat3::hat(u), Mat3::hat(n));
-    let d_uun = (Mat3::hat(un) + hat_u * hat_n).scaled(-1.0);
-    let common = hat_n.scaled(-k.b) + d_uun.scaled(k.c) + Mat3::outer(coupling, u);
+    let common = symmetric_plus_hat(coupling - n * k.c, u, k.c * u.dot(n), -(n * k.b + un * k.c));
     // (1 − S h K) δε = S Tᵀ δw; ∂n̄/∂v = 0 and ∂n̄/∂u = ∂m̄/∂v, so the shifts are eliminated by hand.
     let (by_shift, c) = (scale_rows(su, common), scale_rows(sv, common));
     let schur = (Mat3::IDENTITY - scale_rows(su, moment_by_turn) - by_shift * c).inverse();
     let a = scale_columns(schur, su);
     let b = scale_columns(schur * by_shift, sv);
-    DiagonalFlexibility { turn, shift, inner: [[a, b], [c * a, Mat3::diagonal(sv) + c * b]] }
+    DiagonalFlexibility { turn, shift, a, b, c, stretch: sv }
 }
 
 /// `a bᵀ + diagonal + hat^`.

@@ -21,7 +21,8 @@
 mod diagonal;
 
 pub(crate) use diagonal::{
-    DiagonalFlexibility, DiagonalPoint, First, Fourth, LocalSolver, Multistep, Second, Straight, diagonal_flexibility,
+    DiagonalFlexibility, DiagonalPoint, First, Fourth, LocalSolver, Multistep, Second, Straight,
+    diagonal_flexibility,
 };
 
 use crate::math::{
@@ -165,10 +166,16 @@ pub(crate) fn flexibility(
     let mut columns = [[0.0; 6]; 6];
     for (j, column) in columns.iter_mut().enumerate() {
         let unit = Wrench::from(core::array::from_fn::<f64, 6, _>(|i| f64::from(u8::from(i == j))));
-        let rhs = system.driven_by(order, h, strain, if order == Order::First { unit } else { transpose.mul_vec(unit) });
+        let rhs = system.driven_by(
+            order,
+            h,
+            strain,
+            if order == Order::First { unit } else { transpose.mul_vec(unit) },
+        );
         let step = system.solve(free, &rhs)?;
-        let d: PointStrains =
-            core::array::from_fn(|i| Strain::from(core::array::from_fn::<f64, 6, _>(|k| step[6 * i.min(points.len() - 1) + k])));
+        let d: PointStrains = core::array::from_fn(|i| {
+            Strain::from(core::array::from_fn::<f64, 6, _>(|k| step[6 * i.min(points.len() - 1) + k]))
+        });
         let d_omega = match order {
             Order::First | Order::Second => d[0] * h,
             Order::Fourth => {
@@ -182,7 +189,13 @@ pub(crate) fn flexibility(
 }
 
 /// The [`flexibility`] of an element of a rod, by the quickest way that its law allows, taken as one of the given order.
-pub(crate) fn flexibility_of(rod: &Rod, e: usize, w: Wrench, strain: &PointStrains, order: Order) -> Option<Mat6> {
+pub(crate) fn flexibility_of(
+    rod: &Rod,
+    e: usize,
+    w: Wrench,
+    strain: &PointStrains,
+    order: Order,
+) -> Option<Mat6> {
     let h = rod.element_length(e);
     match (order, rod.diagonal_points(), rod.kinematics()) {
         (Order::Second, Some(points), Kinematics::Kirchhoff) => {
@@ -235,7 +248,8 @@ impl LocalSystem {
                     let sign = if i == 0 { 1.0 } else { -1.0 };
                     let other = strain[1 - i];
                     // σ = σ̄ ± k ad*(other) σ̄: by σ̄ through Ω, and by the other strain directly.
-                    let through = coadjoint_matrix(other).scaled(sign * k).add(&Mat6::IDENTITY).mul(&by_omega);
+                    let through =
+                        coadjoint_matrix(other).scaled(sign * k).add(&Mat6::IDENTITY).mul(&by_omega);
                     for j in 0..2 {
                         let sign_j = if j == 0 { -1.0 } else { 1.0 };
                         let d_omega = Mat6::IDENTITY

@@ -13,8 +13,7 @@ impl Mat6 {
     /// The zero matrix.
     pub const ZERO: Self = Self { blocks: [[Mat3::ZERO; 2]; 2] };
     /// The identity.
-    pub const IDENTITY: Self =
-        Self { blocks: [[Mat3::IDENTITY, Mat3::ZERO], [Mat3::ZERO, Mat3::IDENTITY]] };
+    pub const IDENTITY: Self = Self { blocks: [[Mat3::IDENTITY, Mat3::ZERO], [Mat3::ZERO, Mat3::IDENTITY]] };
 
     /// The diagonal matrix.
     pub fn diagonal(d: Vec6) -> Self {

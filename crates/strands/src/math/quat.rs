@@ -22,8 +22,7 @@ impl Quat {
     /// The unit quaternion along `[w, x, y, z]`, or `None` where that has no length or is not finite.
     pub fn from_wxyz([w, x, y, z]: [f64; 4]) -> Option<Self> {
         let norm = (w * w + x * x + y * y + z * z).sqrt();
-        (norm > 0.0 && norm.is_finite())
-            .then(|| Self { w: w / norm, x: x / norm, y: y / norm, z: z / norm })
+        (norm > 0.0 && norm.is_finite()).then(|| Self { w: w / norm, x: x / norm, y: y / norm, z: z / norm })
     }
 
     /// The rotation by the vector `φ` (axis times angle, rad).
@@ -40,8 +39,11 @@ impl Quat {
         let (w, v) = (sign * self.w, Vec3::new(self.x, self.y, self.z) * sign);
         let sine = v.norm();
         // atan2(s, w)/s → (1/w)(1 − s²/(3w²)) as s → 0.
-        let scale =
-            if sine < 1e-4 { 2.0 / w * (1.0 - sine * sine / (3.0 * w * w)) } else { 2.0 * libm::atan2(sine, w) / sine };
+        let scale = if sine < 1e-4 {
+            2.0 / w * (1.0 - sine * sine / (3.0 * w * w))
+        } else {
+            2.0 * libm::atan2(sine, w) / sine
+        };
         v * scale
     }
 
@@ -58,12 +60,8 @@ impl Quat {
     /// The quaternion of an orientation matrix, by the largest of the four (Shepperd 1978), so that no half turn is special.
     pub fn from_matrix(r: Mat3) -> Self {
         let (a, b, c) = (r.cols[0], r.cols[1], r.cols[2]);
-        let four = [
-            1.0 + a.x + b.y + c.z,
-            1.0 + a.x - b.y - c.z,
-            1.0 - a.x + b.y - c.z,
-            1.0 - a.x - b.y + c.z,
-        ];
+        let four =
+            [1.0 + a.x + b.y + c.z, 1.0 + a.x - b.y - c.z, 1.0 - a.x + b.y - c.z, 1.0 - a.x - b.y + c.z];
         let largest = (0..4).fold(0, |best, i| if four[i] > four[best] { i } else { best });
         let q = match largest {
             0 => [four[0], b.z - c.y, c.x - a.z, a.y - b.x],

@@ -8,8 +8,8 @@
 
 use super::Real;
 
-/// Up to this `θ²` five terms of `b`, and four of the others, which always come times `θ²` or less, are exact to round-off
-/// (`2⁻³⁰/12! < 2⁻⁵⁸`, `2⁻³⁰/11! < 2⁻⁵⁴`).
+/// Up to this `θ²` five terms of `b` and `c` are exact to round-off (`2⁻³⁰/12! < 2⁻⁵⁸`), and four of their derivatives to 1e-11: those come
+/// times `θ²` and more.
 const SHORT_SERIES_LIMIT: f64 = 1.0 / 64.0;
 /// Up to this `θ²` eight terms are (`1/18! < 2⁻⁵²`).
 const SERIES_LIMIT: f64 = 1.0;
@@ -79,7 +79,7 @@ pub fn exp_coefficients<R: Real>(t: R) -> ExpCoefficients<R> {
     let t2 = t * t;
     let short = ExpCoefficients {
         b: short_polynomial(&B, t, t2) + R::splat(B[4]) * (t2 * t2),
-        c: short_polynomial(&C, t, t2),
+        c: short_polynomial(&C, t, t2) + R::splat(C[4]) * (t2 * t2),
         db: short_polynomial(&DB, t, t2),
         dc: short_polynomial(&DC, t, t2),
     };

@@ -1,0 +1,148 @@
+use super::*;
+use core::f64::consts::PI;
+use proptest::prelude::*;
+
+fn unit_vector() -> impl Strategy<Value = Vec3> {
+    (-1.0..1.0f64, 0.0..(2.0 * PI)).prop_map(|(z, phi)| {
+        let r = (1.0 - z * z).sqrt();
+        Vec3::new(r * phi.cos(), r * phi.sin(), z)
+    })
+}
+
+/// Angles near zero, near π and between.
+fn angle() -> impl Strategy<Value = f64> {
+    prop_oneof![
+        Just(0.0),
+        (-300.0..0.0f64).prop_map(|e| 10f64.powf(e / 20.0)),
+        0.0..PI,
+        (-14.0..-1.0f64).prop_map(|e| PI - 10f64.powf(e)),
+    ]
+}
+
+fn twist() -> impl Strategy<Value = Vec6> {
+    (unit_vector(), angle(), unit_vector(), 0.0..3.0f64)
+        .prop_map(|(axis, angle, direction, length)| Vec6::new(axis * angle, direction * length))
+}
+
+fn ad(x: Vec6) -> Mat6 {
+    let (u, v) = (Mat3::hat(x.angular), Mat3::hat(x.linear));
+    Mat6 { blocks: [[u, Mat3::ZERO], [v, u]] }
+}
+
+/// `Σ coefficient(k) ad^k`, summed until nothing changes.
+fn series(x: Vec6, coefficient: impl Fn(usize) -> f64) -> Mat6 {
+    let (mut sum, mut power) = (Mat6::IDENTITY, Mat6::IDENTITY);
+    for k in 1..60 {
+        power = power.mul(&ad(x));
+        sum = sum.add(&power.scaled(coefficient(k)));
+    }
+    sum
+}
+
+fn factorial(k: usize) -> f64 {
+    (1..=k).map(|i| i as f64).product()
+}
+
+fn distance(a: &Mat6, b: &Mat6) -> f64 {
+    let (a, b) = (a.to_rows(), b.to_rows());
+    let size = a.iter().flatten().fold(1.0_f64, |m, x| m.max(x.abs()));
+    a.iter().flatten().zip(b.iter().flatten()).fold(0.0_f64, |m, (x, y)| m.max((x - y).abs())) / size
+}
+
+proptest! {
+    #![proptest_config(ProptestConfig::with_cases(2000))]
+
+    #[test]
+    fn log_undoes_exp_from_zero_to_half_a_turn(x in twist()) {
+        let back = Pose::exp(x).log();
+        let angle = x.angular.norm();
+        // At half a turn the axis is known up to its sign, and near it the angle only as well as the matrix tells it.
+        if angle < PI - 1e-12 {
+            let tolerance = 1e-15 * (1.0 + x.linear.norm()) * 16.0;
+            prop_assert!((back - x).max_abs() <= tolerance, "{:e} at {angle}", (back - x).max_abs());
+        }
+        let again = Pose::exp(back);
+        prop_assert!((again.rotation - Pose::exp(x).rotation).max_abs() < 1e-14);
+        prop_assert!((again.position - Pose::exp(x).position).max_abs() < 1e-14 * (1.0 + x.linear.norm()));
+    }
+
+    #[test]
+    fn exp_is_a_rotation(x in twist()) {
+        let r = Pose::exp(x).rotation;
+        let gap = r.transpose() * r - Mat3::IDENTITY;
+        prop_assert!(gap.max_abs() < 1e-15 * 8.0);
+        prop_assert!((r.determinant() - 1.0).abs() < 1e-15 * 8.0);
+    }
+
+    #[test]
+    fn tangent_is_its_series(x in twist()) {
+        let exact = series(x, |k| if k % 2 == 0 { 1.0 } else { -1.0 } / factorial(k + 1));
+        prop_assert!(distance(&exact, &tangent(x)) < 1e-13, "{:e}", distance(&exact, &tangent(x)));
+    }
+
+    #[test]
+    fn inverse_tangent_inverts_the_tangent(x in twist()) {
+        let product = tangent(x).mul(&tangent_inverse(x));
+        prop_assert!(distance(&product, &Mat6::IDENTITY) < 1e-13, "{:e}", distance(&product, &Mat6::IDENTITY));
+    }
+
+    #[test]
+    fn adjoint_is_the_exponential_of_the_bracket(x in twist(), y in twist()) {
+        let exact = series(x, |k| 1.0 / factorial(k)).mul_vec(y);
+        prop_assert!((Pose::exp(x).adjoint(y) - exact).max_abs() < 1e-12 * (1.0 + exact.max_abs()));
+    }
+
+    #[test]
+    fn carried_wrenches_do_the_same_work(x in twist(), w in twist(), y in twist()) {
+        // (Ad⁻ᵀ w) · (Ad y) = w · y.
+        let g = Pose::exp(x);
+        let work = g.carry_wrench(w).dot(g.adjoint(y));
+        prop_assert!((work - w.dot(y)).abs() < 1e-12 * (1.0 + w.max_abs() * y.max_abs()));
+    }
+
+    #[test]
+    fn quaternions_and_matrices_agree(x in twist()) {
+        let q = Quat::from_rotation_vector(x.angular);
+        prop_assert!((q.to_matrix() - Pose::exp(x).rotation).max_abs() < 1e-15 * 8.0);
+        let back = Quat::from_matrix(q.to_matrix()).to_rotation_vector();
+        prop_assert!((Quat::from_rotation_vector(back).to_matrix() - q.to_matrix()).max_abs() < 1e-15 * 8.0);
+    }
+
+    #[test]
+    fn lanes_give_the_bits_of_single_numbers(xs in prop::array::uniform8(twist())) {
+        let gather = |pick: &dyn Fn(&Vec6) -> f64| Lanes::<8>::from_fn(|i| pick(&xs[i]));
+        let vector = |pick: &dyn Fn(&Vec6) -> Vec3| {
+            Vec3::new(gather(&|x| pick(x).x), gather(&|x| pick(x).y), gather(&|x| pick(x).z))
+        };
+        let together = Pose::exp(Vec6::new(vector(&|x| x.angular), vector(&|x| x.linear)));
+        for (i, x) in xs.iter().enumerate() {
+            let alone = Pose::exp(*x);
+            prop_assert_eq!(together.position.x.0[i].to_bits(), alone.position.x.to_bits());
+            prop_assert_eq!(together.rotation.cols[1].z.0[i].to_bits(), alone.rotation.cols[1].z.to_bits());
+        }
+    }
+}
+
+#[test]
+fn coefficients_join_smoothly_where_their_series_change() {
+    for limit in [1.0 / 64.0, 1.0] {
+        let (below, above) = (exp_coefficients(limit), exp_coefficients(limit * (1.0 + 1e-15)));
+        for (a, b) in [(below.b, above.b), (below.c, above.c)] {
+            assert!((a - b).abs() <= 4e-16 * a, "{a} {b} at {limit}");
+        }
+        for (a, b) in [(below.db, above.db), (below.dc, above.dc)] {
+            assert!((a - b).abs() <= 1e-11 * a.abs(), "{a} {b} at {limit}");
+        }
+    }
+}
+
+#[test]
+fn lu_solves_and_knows_the_sign_of_the_determinant() {
+    let a = [[0.0, 2.0, 1.0], [1.0, 0.5, -1.0], [3.0, 1.0, 4.0]];
+    let x = lu(a).unwrap().solve(&[5.0, -1.0, 2.0]);
+    for (row, b) in a.iter().zip([5.0, -1.0, 2.0]) {
+        let sum: f64 = row.iter().zip(x).map(|(a, x)| a * x).sum();
+        assert!((sum - b).abs() < 1e-14);
+    }
+    assert!(lu([[1.0, 2.0], [2.0, 4.0]]).is_none());
+}

@@ -124,11 +124,7 @@ impl<R: Real> Vec3<R> {
     /// `yes` where the mask is set, `no` elsewhere.
     #[inline(always)]
     pub fn select(mask: R::Mask, yes: Self, no: Self) -> Self {
-        Self::new(
-            R::select(mask, yes.x, no.x),
-            R::select(mask, yes.y, no.y),
-            R::select(mask, yes.z, no.z),
-        )
+        Self::new(R::select(mask, yes.x, no.x), R::select(mask, yes.y, no.y), R::select(mask, yes.z, no.z))
     }
 }
 

@@ -82,10 +82,7 @@ impl<R: Real> Vec6<R> {
     /// `ad_self other`, the Lie bracket of se(3).
     #[inline(always)]
     pub fn bracket(self, o: Self) -> Self {
-        Self::new(
-            self.angular.cross(o.angular),
-            self.linear.cross(o.angular) + self.angular.cross(o.linear),
-        )
+        Self::new(self.angular.cross(o.angular), self.linear.cross(o.angular) + self.angular.cross(o.linear))
     }
 
     /// `−ad_selfᵀ wrench = (u×m + v×n, u×n)`: how fast a wrench changes in the material frame when it is carried
@@ -101,10 +98,7 @@ impl<R: Real> Vec6<R> {
     /// `yes` where the mask is set, `no` elsewhere.
     #[inline(always)]
     pub fn select(mask: R::Mask, yes: Self, no: Self) -> Self {
-        Self::new(
-            Vec3::select(mask, yes.angular, no.angular),
-            Vec3::select(mask, yes.linear, no.linear),
-        )
+        Self::new(Vec3::select(mask, yes.angular, no.angular), Vec3::select(mask, yes.linear, no.linear))
     }
 }
 

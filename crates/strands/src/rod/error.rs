@@ -88,7 +88,9 @@ pub enum RodError {
         length: f64,
     },
     /// Fewer elements than the stretches between loads and steps need.
-    #[error("{elements} elements are too few: the rod's {spans} stretches between steps and loads need at least {needed}")]
+    #[error(
+        "{elements} elements are too few: the rod's {spans} stretches between steps and loads need at least {needed}"
+    )]
     TooFewElements {
         /// How many were asked for.
         elements: usize,

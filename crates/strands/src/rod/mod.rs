@@ -132,7 +132,9 @@ impl RodDescription {
     /// The law, mass per length and half extent at `s`, on the side of `towards`.
     fn at(&self, s: f64, towards: f64) -> (Law, f64, [f64; 2]) {
         let stations = match &self.profile {
-            Profile::Given { law, mass_per_length, half_extent } => return (law.clone(), *mass_per_length, *half_extent),
+            Profile::Given { law, mass_per_length, half_extent } => {
+                return (law.clone(), *mass_per_length, *half_extent);
+            }
             Profile::Stations(stations) => stations,
         };
         let after = if towards < s {
@@ -140,14 +142,16 @@ impl RodDescription {
         } else {
             stations.partition_point(|station| station.s <= s)
         };
-        let (section, material) = match (after.checked_sub(1).and_then(|i| stations.get(i)), stations.get(after)) {
-            (Some(a), Some(b)) if b.s > a.s => {
-                (a.section.interpolate(&b.section, (s - a.s) / (b.s - a.s)).unwrap_or(a.section), a.material)
-            }
-            (Some(a), _) => (a.section, a.material),
-            (None, Some(b)) => (b.section, b.material),
-            (None, None) => unreachable!("validated: at least one station"),
-        };
+        let (section, material) =
+            match (after.checked_sub(1).and_then(|i| stations.get(i)), stations.get(after)) {
+                (Some(a), Some(b)) if b.s > a.s => (
+                    a.section.interpolate(&b.section, (s - a.s) / (b.s - a.s)).unwrap_or(a.section),
+                    a.material,
+                ),
+                (Some(a), _) => (a.section, a.material),
+                (None, Some(b)) => (b.section, b.material),
+                (None, None) => unreachable!("validated: at least one station"),
+            };
         let law = Law::Diagonal(section.stiffness(&material));
         (law, material.density * section.area(), section.half_extent())
     }
@@ -315,3 +319,6 @@ fn diagonal_point(kinematics: Kinematics, point: &Point) -> Option<DiagonalPoint
     };
     Some(DiagonalPoint { compliance: Vec6::new(inverse(c.angular), linear), rest: point.rest })
 }
+
+#[cfg(test)]
+mod tests;

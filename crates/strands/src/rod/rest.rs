@@ -41,7 +41,11 @@ impl RestShape {
         let rise = pitch / TAU;
         let square = radius * radius + rise * rise;
         if !(square > 0.0 && square.is_finite()) {
-            return Err(RodError::OutOfRange { quantity: "pitch", value: pitch, expected: "a finite number, not zero" });
+            return Err(RodError::OutOfRange {
+                quantity: "pitch",
+                value: pitch,
+                expected: "a finite number, not zero",
+            });
         }
         Ok(Self::Constant(Vec3::new(0.0, radius / square, rise / square)))
     }
@@ -119,7 +123,8 @@ impl RestShape {
                 } else {
                     samples.partition_point(|sample| sample.0 <= s)
                 };
-                let (Some(&(s1, u1)), Some(&(s0, u0))) = (samples.get(after), after.checked_sub(1).and_then(|i| samples.get(i)))
+                let (Some(&(s1, u1)), Some(&(s0, u0))) =
+                    (samples.get(after), after.checked_sub(1).and_then(|i| samples.get(i)))
                 else {
                     return samples[after.min(samples.len() - 1)].1;
                 };

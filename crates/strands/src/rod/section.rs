@@ -163,7 +163,9 @@ impl Section {
                 Self::Annulus { outer_radius: p, inner_radius: i },
                 Self::Annulus { outer_radius: q, inner_radius: j },
             ) => Self::Annulus { outer_radius: mix(p, q), inner_radius: mix(i, j) },
-            (Self::Ellipse { a, b }, Self::Ellipse { a: c, b: d }) => Self::Ellipse { a: mix(a, c), b: mix(b, d) },
+            (Self::Ellipse { a, b }, Self::Ellipse { a: c, b: d }) => {
+                Self::Ellipse { a: mix(a, c), b: mix(b, d) }
+            }
             (Self::Rectangle { width: a, height: b }, Self::Rectangle { width: c, height: d }) => {
                 Self::Rectangle { width: mix(a, c), height: mix(b, d) }
             }

@@ -175,7 +175,8 @@ impl EndState {
         match end.turns() {
             Turns::Fixed => {}
             Turns::Free => {
-                next.pose.rotation = renormalised(self.pose.rotation * Quat::from_rotation_vector(turn).to_matrix());
+                next.pose.rotation =
+                    renormalised(self.pose.rotation * Quat::from_rotation_vector(turn).to_matrix());
             }
             Turns::Mixed => {
                 let phi = end.turn_of(&self.pose) + turn;
@@ -273,7 +274,8 @@ pub(crate) fn residual_slope(problem: &Problem, start: &Section, columns: &Colum
         let force = rotation * (turn.cross(loaded.wrench.linear) + change.linear);
         let moment = if end.turns() == Turns::Mixed {
             let step = 1e-5;
-            let at = |sign: f64| so3_tangent(phi + d_phi * (sign * step)).transpose_mul(loaded.wrench.angular);
+            let at =
+                |sign: f64| so3_tangent(phi + d_phi * (sign * step)).transpose_mul(loaded.wrench.angular);
             so3_tangent(phi).transpose_mul(change.angular) + (at(1.0) - at(-1.0)) * (0.5 / step)
         } else {
             change.angular

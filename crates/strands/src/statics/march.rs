@@ -49,15 +49,15 @@ impl Record {
 
 /// Watches a march go by.
 trait Watch<R: Real> {
-    fn element(&mut self, element: usize, wrench: Wrench<R>, strains: &[Strain<R>], relative: &Pose<R>);
+    fn element(&mut self, element: usize, wrench: Wrench<R>, strains: [&Strain<R>; 2], relative: &Pose<R>);
     fn node(&mut self, node: usize, pose: &Pose<R>);
 }
 
 impl Watch<f64> for Record {
     #[inline(always)]
-    fn element(&mut self, element: usize, wrench: Wrench, strains: &[Strain], relative: &Pose) {
+    fn element(&mut self, element: usize, wrench: Wrench, strains: [&Strain; 2], relative: &Pose) {
         self.wrenches[element] = wrench;
-        self.strains[element][..strains.len()].copy_from_slice(strains);
+        self.strains[element] = strains.map(|strain| *strain);
         self.relative[element] = *relative;
     }
     #[inline(always)]
@@ -71,7 +71,7 @@ struct Blind;
 
 impl<R: Real> Watch<R> for Blind {
     #[inline(always)]
-    fn element(&mut self, _: usize, _: Wrench<R>, _: &[Strain<R>], _: &Pose<R>) {}
+    fn element(&mut self, _: usize, _: Wrench<R>, _: [&Strain<R>; 2], _: &Pose<R>) {}
     #[inline(always)]
     fn node(&mut self, _: usize, _: &Pose<R>) {}
 }
@@ -115,7 +115,10 @@ fn diagonal<R: Real, W: Watch<R>>(
 ) -> Section<R> {
     macro_rules! with {
         ($solver:ty) => {
-            dispatch(level, DiagonalMarch { rod, points, loads, end, watch, solver: <$solver as LocalSolver<R>>::new() })
+            dispatch(
+                level,
+                DiagonalMarch { rod, points, loads, end, watch, solver: <$solver as LocalSolver<R>>::new() },
+            )
         };
     }
     match (scheme, rod.order(), rod.kinematics()) {
@@ -152,7 +155,7 @@ impl<R: Real, W: Watch<R>, S: LocalSolver<R>> Kernel for DiagonalMarch<'_, R, W,
         for e in (0..rod.elements()).rev() {
             let h = nodes[e + 1] - nodes[e];
             let solved = solver.next(h, &points[e * S::POINTS..(e + 1) * S::POINTS], wrench);
-            watch.element(e, wrench, &solved.strains[..S::POINTS], &solved.relative);
+            watch.element(e, wrench, [&solved.strain, &solved.second], &solved.relative);
             wrench = solved.relative.carry_wrench(wrench);
             pose = step_back(&pose, &solved.relative);
             watch.node(e, &pose);
@@ -190,7 +193,7 @@ fn general(rod: &Rod, scheme: Scheme, loads: &NodalLoads, end: Section, record: 
             .unwrap_or([Vec6::from([f64::NAN; 6]); 2]);
         last = [core::array::from_fn(|i| strain[i] - rest[i]), last[0]];
         let relative = Pose::exp(exponent(rod.order(), h, &strain));
-        record.element(e, wrench, &strain[..points.len()], &relative);
+        record.element(e, wrench, [&strain[0], &strain[1]], &relative);
         wrench = relative.carry_wrench(wrench);
         pose = step_back(&pose, &relative);
         record.node(e, &pose);
@@ -213,4 +216,3 @@ fn step_back<R: Real>(pose: &Pose<R>, relative: &Pose<R>) -> Pose<R> {
 pub(crate) fn turned<R: Real>(pose: &Pose<R>, world: Wrench<R>) -> Wrench<R> {
     Wrench::new(pose.rotation.transpose_mul(world.angular), pose.rotation.transpose_mul(world.linear))
 }
-

@@ -19,7 +19,8 @@ pub use problem::{End, Problem};
 pub use refine::{RefineError, Refined, refine};
 pub use shooting::Workspace;
 pub use solution::{
-    Energy, FailureReason, Guess, Jacobian, Method, Reaction, Scheme, Settings, Solution, SolveFailure, SolveReport,
+    Energy, FailureReason, Guess, Jacobian, Method, Reaction, Scheme, Settings, Solution, SolveFailure,
+    SolveReport,
 };
 
 use crate::math::{Vec3, Vec6};
@@ -62,6 +63,28 @@ pub fn solve(
     Err(failure(problem, &search, reason, workspace, report))
 }
 
+/// One frame of an interactive loop: searches from the last solution for the one next to it. Nothing is allocated once the workspace and the
+/// report have been used for the rod; the frames are in [`Workspace::poses`].
+///
+/// Where the search fails the guess stays as it was, and [`solve`] can still find a way.
+pub fn follow(
+    problem: &Problem,
+    settings: &Settings,
+    guess: &mut Guess,
+    workspace: &mut Workspace,
+    report: &mut SolveReport,
+) -> bool {
+    report.restart(Method::Shooting);
+    let state = EndState::from_guess(problem, guess);
+    let search = shoot(problem, settings, state, workspace, report);
+    let converged = search.outcome == Outcome::Converged;
+    if converged {
+        let section = search.state.section(problem);
+        *guess = Guess { pose: section.pose, wrench: section.wrench };
+    }
+    converged
+}
+
 /// Chooses the way: two sweeps where they suffice, a search from the guess, a walk from the guess, a walk from rest.
 fn find(
     problem: &Problem,
@@ -71,7 +94,8 @@ fn find(
     report: &mut SolveReport,
 ) -> Search {
     let standard = sweep::not_standard(problem).is_none();
-    report.method = if standard && settings.method != Method::Shooting { Method::Sweep } else { Method::Shooting };
+    report.method =
+        if standard && settings.method != Method::Shooting { Method::Sweep } else { Method::Shooting };
     report.path_steps = 1;
     if report.method == Method::Sweep && !problem.loads.any_in_world() {
         return sweep::two_sweeps(problem, settings, workspace, report);
@@ -103,7 +127,9 @@ fn from_rest(
     }
     let mut best: Option<Search> = None;
     let routes = [Route::Straight, Route::MoveThenTurn];
-    for (nudge, route) in path::nudges(problem).into_iter().flat_map(|nudge| routes.map(|route| (nudge, route))) {
+    for (nudge, route) in
+        path::nudges(problem).into_iter().flat_map(|nudge| routes.map(|route| (nudge, route)))
+    {
         let search = path::from_rest(problem, settings, route, nudge, workspace, report);
         let converged = search.outcome == Outcome::Converged;
         if converged && stability::morse_index(problem, &search.state, workspace).unwrap_or(0) == 0 {
@@ -129,7 +155,11 @@ fn refused(problem: &Problem, settings: &Settings) -> Option<FailureReason> {
     let reach = problem.rod.length();
     let distance = (problem.end.pose.position - problem.start.pose.position).norm();
     let inextensible = problem.rod.kinematics() == Kinematics::Kirchhoff;
-    if inextensible && held(&problem.start.fixed) && held(&problem.end.fixed) && distance > reach * (1.0 + 1e-12) {
+    if inextensible
+        && held(&problem.start.fixed)
+        && held(&problem.end.fixed)
+        && distance > reach * (1.0 + 1e-12)
+    {
         return Some(FailureReason::OutOfReach { distance, length: reach });
     }
     None
@@ -231,14 +261,13 @@ impl Solution {
             add(world.linear, world.angular, pose.position);
             add(pose.rotation * body.linear, pose.rotation * body.angular, pose.position);
         }
-        for (reaction, pose) in self.reactions.iter().zip([&self.poses[0], &self.poses[self.poses.len() - 1]]) {
+        for (reaction, pose) in self.reactions.iter().zip([&self.poses[0], &self.poses[self.poses.len() - 1]])
+        {
             add(reaction.force, reaction.moment, pose.position);
         }
         (force.norm() / force_size).max(moment.norm() / moment_size)
     }
 }
-
-
 
 #[cfg(test)]
 mod tests;

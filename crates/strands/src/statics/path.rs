@@ -12,8 +12,8 @@ use super::boundary::{EndState, meet};
 use super::march::{Section, march};
 use super::problem::{End, Problem};
 use super::shooting::{Outcome, Search, Workspace, shoot};
-use super::stability::morse_index;
 use super::solution::{Guess, Scheme, Settings, SolveReport};
+use super::stability::morse_index;
 use crate::load::NodalLoads;
 use crate::math::{Pose, Quat, Vec3, Wrench};
 

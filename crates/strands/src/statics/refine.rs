@@ -87,13 +87,14 @@ where
     let (mut half_guess, mut guess): (Option<Guess>, Option<Guess>) = (None, None);
     let mut last = (f64::INFINITY, 0);
     for _ in 0..MAX_ROUNDS {
-        let mut on = |elements: usize, guess: &mut Option<Guess>| -> Result<(Problem, Solution), RefineError> {
-            let pieces: Vec<(f64, usize)> = blocks.iter().map(|&end| (end, elements)).collect();
-            let problem = pose(Rod::new(description.clone(), Mesh::from_pieces(&pieces), order)?)?;
-            let solution = solve(&problem, settings, guess.as_ref(), &mut workspace)?;
-            *guess = Some(solution.guess);
-            Ok((problem, solution))
-        };
+        let mut on =
+            |elements: usize, guess: &mut Option<Guess>| -> Result<(Problem, Solution), RefineError> {
+                let pieces: Vec<(f64, usize)> = blocks.iter().map(|&end| (end, elements)).collect();
+                let problem = pose(Rod::new(description.clone(), Mesh::from_pieces(&pieces), order)?)?;
+                let solution = solve(&problem, settings, guess.as_ref(), &mut workspace)?;
+                *guess = Some(solution.guess);
+                Ok((problem, solution))
+            };
         let (_, half) = on(BLOCK / 2, &mut half_guess)?;
         if guess.is_none() {
             guess = half_guess;

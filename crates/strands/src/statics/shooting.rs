@@ -33,6 +33,13 @@ impl Default for Workspace {
     }
 }
 
+impl Workspace {
+    /// The frames of the nodes after the last search or march.
+    pub fn poses(&self) -> &[Pose] {
+        &self.record.poses
+    }
+}
+
 /// Where a search ended.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Search {
@@ -159,7 +166,11 @@ fn line_search(
         }
         report.line_search_cuts += 1;
         // The minimum of the parabola through the two norms and the slope at the point, kept within a tenth and a half.
-        let parabola = if after.is_finite() { 0.5 / (1.0 + (after * after / (before * before) - 1.0) / 2.0) } else { 0.1 };
+        let parabola = if after.is_finite() {
+            0.5 / (1.0 + (after * after / (before * before) - 1.0) / 2.0)
+        } else {
+            0.1
+        };
         part *= parabola.clamp(0.1, 0.5);
     }
     None
@@ -193,11 +204,14 @@ fn jacobian(
             Some(residual_slope(problem, &point.start, &at_start))
         }
         Jacobian::FiniteDifferences => {
-            let perturbed = |k| evaluate(problem, scheme, perturbed(problem, point, k).0, workspace, report, true).residual;
+            let perturbed = |k| {
+                evaluate(problem, scheme, perturbed(problem, point, k).0, workspace, report, true).residual
+            };
             Some(differences(problem, point, core::array::from_fn(perturbed)))
         }
         Jacobian::FiniteDifferenceLanes => {
-            let sections: [Section; 6] = core::array::from_fn(|k| perturbed(problem, point, k).0.section(problem));
+            let sections: [Section; 6] =
+                core::array::from_fn(|k| perturbed(problem, point, k).0.section(problem));
             let lane = |i: usize| &sections[i.min(5)];
             let gather = |pick: &dyn Fn(&Section) -> Vec3| {
                 let part = |axis: usize| Lanes::<8>::from_fn(|i| pick(lane(i))[axis]);
@@ -289,23 +303,26 @@ fn norm(residual: &[f64; 6]) -> f64 {
 
 /// The largest residual; NaN where any is.
 fn largest(residual: &[f64; 6]) -> f64 {
-    residual.iter().fold(0.0, |max: f64, x| if x.is_nan() || max.is_nan() { f64::NAN } else { max.max(x.abs()) })
+    residual
+        .iter()
+        .fold(0.0, |max: f64, x| if x.is_nan() || max.is_nan() { f64::NAN } else { max.max(x.abs()) })
 }
 
 /// The Jacobian at a guess by each way, for the test that compares them.
 #[cfg(test)]
-pub(crate) fn slopes(
-    problem: &Problem,
-    guess: &super::solution::Guess,
-) -> [(Jacobian, [[f64; 6]; 6]); 4] {
+pub(crate) fn slopes(problem: &Problem, guess: &super::solution::Guess) -> [(Jacobian, [[f64; 6]; 6]); 4] {
     let mut workspace = Workspace::default();
     let mut report = SolveReport::default();
     let state = EndState::from_guess(problem, guess);
     let point = evaluate(problem, Scheme::Element, state, &mut workspace, &mut report, false);
-    [Jacobian::VariationalLanes, Jacobian::Variational, Jacobian::FiniteDifferences, Jacobian::FiniteDifferenceLanes].map(
-        |how| {
-            let slope = jacobian(problem, Scheme::Element, how, &point, &mut workspace, &mut report);
-            (how, slope.unwrap_or([[f64::NAN; 6]; 6]))
-        },
-    )
+    [
+        Jacobian::VariationalLanes,
+        Jacobian::Variational,
+        Jacobian::FiniteDifferences,
+        Jacobian::FiniteDifferenceLanes,
+    ]
+    .map(|how| {
+        let slope = jacobian(problem, Scheme::Element, how, &point, &mut workspace, &mut report);
+        (how, slope.unwrap_or([[f64::NAN; 6]; 6]))
+    })
 }

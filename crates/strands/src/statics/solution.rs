@@ -151,6 +151,15 @@ impl Default for SolveReport {
     }
 }
 
+impl SolveReport {
+    /// Empties the report, keeping its room.
+    pub(crate) fn restart(&mut self, method: Method) {
+        let mut residual_history = core::mem::take(&mut self.residual_history);
+        residual_history.clear();
+        *self = Self { method, residual_history, path_steps: 1, ..Self::default() };
+    }
+}
+
 /// An equilibrium.
 #[derive(Clone, Debug)]
 pub struct Solution {
@@ -198,10 +207,14 @@ pub enum FailureReason {
         iterations: usize,
     },
     /// The supports leave the rod free to move as a whole, or the problem is singular there.
-    #[error("the problem is singular: the supports may leave the rod free to move or turn as a whole; fix more of its ends")]
+    #[error(
+        "the problem is singular: the supports may leave the rod free to move or turn as a whole; fix more of its ends"
+    )]
     Singular,
     /// The method that was asked for does not solve this kind of problem.
-    #[error("the sweep needs one end clamped and the other free: {what}; use method = \"shooting\" or \"auto\"")]
+    #[error(
+        "the sweep needs one end clamped and the other free: {what}; use method = \"shooting\" or \"auto\""
+    )]
     NotStandard {
         /// What is not as it should be.
         what: &'static str,

@@ -34,7 +34,8 @@ pub(crate) fn two_sweeps(
 ) -> Search {
     let anywhere = Guess { pose: Pose::IDENTITY, wrench: Wrench::ZERO };
     let end = EndState::from_guess(problem, &anywhere).section(problem);
-    let mut start = march(workspace.simd, &problem.rod, settings.scheme, &problem.loads, end, &mut workspace.record);
+    let mut start =
+        march(workspace.simd, &problem.rod, settings.scheme, &problem.loads, end, &mut workspace.record);
     report.sweeps += 1;
     let base = problem.start.pose;
     let correction = base.compose(&start.pose.inverse());

@@ -9,12 +9,13 @@ fn description(kinematics: Kinematics, rest: RestShape) -> RodDescription {
     RodDescription {
         length: 0.8,
         kinematics,
-        profile: Profile::Given { law: Law::Diagonal(stiffness), mass_per_length: 0.02, half_extent: [0.002; 2] },
+        profile: Profile::Given {
+            law: Law::Diagonal(stiffness),
+            mass_per_length: 0.02,
+            half_extent: [0.002; 2],
+        },
         rest,
-        base: Pose::from_parts(
-            Vec3::new(0.1, -0.2, 0.3),
-            Quat::from_wxyz([0.9, 0.1, -0.3, 0.2]).unwrap(),
-        ),
+        base: Pose::from_parts(Vec3::new(0.1, -0.2, 0.3), Quat::from_wxyz([0.9, 0.1, -0.3, 0.2]).unwrap()),
     }
 }
 
@@ -66,7 +67,10 @@ fn tip_error_falls_at_the_order_of_the_scheme() {
                 };
                 let slope = slope_of(error, coarse);
                 let expected = order.as_number() as f64;
-                assert!((slope - expected).abs() < 0.1, "{kinematics:?} {frame:?} {order:?}: slope {slope:.3}");
+                assert!(
+                    (slope - expected).abs() < 0.1,
+                    "{kinematics:?} {frame:?} {order:?}: slope {slope:.3}"
+                );
             }
         }
     }
@@ -117,8 +121,13 @@ fn following_and_turning_distributed_loads_are_of_second_order() {
             frame,
         };
         let loads = NodalLoads::none(&rod)
-            .with_distributed(&rod, &along(Frame::Body, Vec3::new(0.01, 0.0, 0.02), Vec3::new(0.1, -0.1, 0.0)))
-            .and_then(|loads| loads.with_distributed(&rod, &along(Frame::World, Vec3::new(0.0, 0.03, 0.0), Vec3::X * 0.1)))
+            .with_distributed(
+                &rod,
+                &along(Frame::Body, Vec3::new(0.01, 0.0, 0.02), Vec3::new(0.1, -0.1, 0.0)),
+            )
+            .and_then(|loads| {
+                loads.with_distributed(&rod, &along(Frame::World, Vec3::new(0.0, 0.03, 0.0), Vec3::X * 0.1))
+            })
             .unwrap();
         Problem { loads, ..Problem::cantilever(rod) }
     };
@@ -134,8 +143,7 @@ fn force_and_moment_balance_to_roundoff_at_any_number_of_elements() {
         for order in [Order::First, Order::Second, Order::Fourth] {
             for elements in [5, 50, 500] {
                 let mut problem = loaded(kinematics, elements, order, Frame::World);
-                problem.loads =
-                    problem.loads.clone().with_gravity(&problem.rod, Vec3::new(0.0, 1.0, -9.81));
+                problem.loads = problem.loads.clone().with_gravity(&problem.rod, Vec3::new(0.0, 1.0, -9.81));
                 let settings = Settings { tolerance: 1e-13, ..Settings::default() };
                 let free = solved(&problem, &settings);
                 let imbalance = free.imbalance(&problem);
@@ -151,10 +159,7 @@ fn force_and_moment_balance_to_roundoff_at_any_number_of_elements() {
 
 #[test]
 fn solution_moves_with_the_problem() {
-    let motion = Pose::from_parts(
-        Vec3::new(-3.0, 2.0, 5.0),
-        Quat::from_wxyz([0.3, -0.5, 0.7, 0.4]).unwrap(),
-    );
+    let motion = Pose::from_parts(Vec3::new(-3.0, 2.0, 5.0), Quat::from_wxyz([0.3, -0.5, 0.7, 0.4]).unwrap());
     let settings = Settings { tolerance: 1e-13, ..Settings::default() };
     for order in [Order::First, Order::Second, Order::Fourth] {
         let mut problem = loaded(Kinematics::Cosserat, 60, order, Frame::World);
@@ -228,8 +233,8 @@ fn any_mix_of_the_six_can_be_held_and_what_is_free_bears_no_load() {
         let loads = NodalLoads::none(&rod).with_gravity(&rod, Vec3::new(0.0, 1.0, -9.81));
         let mut problem = Problem { loads, ..Problem::cantilever(rod) };
         let hanging = tip(&solved(&problem, &settings));
-        let target = hanging
-            .compose(&Pose::exp(Vec6::new(Vec3::new(0.2, -0.3, 0.25), Vec3::new(0.03, -0.04, -0.05))));
+        let target =
+            hanging.compose(&Pose::exp(Vec6::new(Vec3::new(0.2, -0.3, 0.25), Vec3::new(0.03, -0.04, -0.05))));
         problem.end = End { fixed, pose: target, grip: None };
         let solution = solved(&problem, &settings);
         let reached = tip(&solution);
@@ -262,7 +267,8 @@ fn a_start_that_is_only_pinned_bears_no_moment() {
     let rod = rod(Kinematics::Cosserat, RestShape::default(), 60, Order::Second);
     let loads = NodalLoads::none(&rod).with_gravity(&rod, Vec3::new(0.0, 0.5, -2.0));
     let base = rod.description().base;
-    let far = base.compose(&Pose { rotation: crate::math::Mat3::IDENTITY, position: Vec3::new(0.1, 0.05, 0.7) });
+    let far =
+        base.compose(&Pose { rotation: crate::math::Mat3::IDENTITY, position: Vec3::new(0.1, 0.05, 0.7) });
     let problem = Problem { rod, loads, start: End::pinned(base), end: End::clamped(far) };
     let solution = solved(&problem, &Settings { tolerance: 1e-11, ..Settings::default() });
     assert!(solution.reactions[0].moment.max_abs() < 1e-11, "{:?}", solution.reactions[0]);
@@ -367,7 +373,8 @@ fn a_stiffening_rod_bends_less_and_keeps_its_balance() {
         mass_per_length: 0.02,
         half_extent: [0.002; 2],
     };
-    let stiffening = Problem { rod: Rod::with_elements(description, 60, &[], Order::Fourth).unwrap(), ..plain.clone() };
+    let stiffening =
+        Problem { rod: Rod::with_elements(description, 60, &[], Order::Fourth).unwrap(), ..plain.clone() };
     let settings = Settings { tolerance: 1e-12, ..Settings::default() };
     let (soft, stiff) = (solved(&plain, &settings), solved(&stiffening, &settings));
     assert!(stiff.energy.elastic < soft.energy.elastic);
@@ -378,7 +385,8 @@ fn a_stiffening_rod_bends_less_and_keeps_its_balance() {
 fn a_tip_out_of_reach_fails_and_says_by_how_much() {
     let rod = rod(Kinematics::Kirchhoff, RestShape::default(), 50, Order::Second);
     let base = rod.description().base;
-    let far = base.compose(&Pose { rotation: crate::math::Mat3::IDENTITY, position: Vec3::new(0.0, 0.3, 0.9) });
+    let far =
+        base.compose(&Pose { rotation: crate::math::Mat3::IDENTITY, position: Vec3::new(0.0, 0.3, 0.9) });
     let problem = Problem { end: End::clamped(far), ..Problem::cantilever(rod) };
     let failure = solve(&problem, &Settings::default(), None, &mut Workspace::default()).unwrap_err();
     assert!(matches!(failure.reason, FailureReason::OutOfReach { .. }), "{failure}");
@@ -394,7 +402,8 @@ fn a_straight_rod_pushed_along_its_axis_buckles_to_a_stable_shape() {
     for kinematics in [Kinematics::Kirchhoff, Kinematics::Cosserat] {
         let rod = rod(kinematics, RestShape::default(), 100, Order::Second);
         let base = rod.description().base;
-        let near = base.compose(&Pose { rotation: crate::math::Mat3::IDENTITY, position: Vec3::new(0.0, 0.0, 0.6) });
+        let near =
+            base.compose(&Pose { rotation: crate::math::Mat3::IDENTITY, position: Vec3::new(0.0, 0.0, 0.6) });
         let problem = Problem { end: End::clamped(near), ..Problem::cantilever(rod) };
         let solution = solved(&problem, &Settings::default());
         assert_eq!(solution.report.morse_index, Some(0), "{kinematics:?}");
@@ -410,7 +419,8 @@ fn a_hand_on_a_stiff_coupling_pulls_the_tip_to_itself_and_its_wrench_balances() 
     let loads = NodalLoads::none(&rod).with_gravity(&rod, Vec3::new(0.0, 1.0, -9.81));
     let mut problem = Problem { loads, ..Problem::cantilever(rod) };
     let hanging = tip(&solved(&problem, &Settings::default()));
-    let hand = hanging.compose(&Pose::exp(Vec6::new(Vec3::new(0.3, -0.2, 0.4), Vec3::new(0.05, 0.02, -0.04))));
+    let hand =
+        hanging.compose(&Pose::exp(Vec6::new(Vec3::new(0.3, -0.2, 0.4), Vec3::new(0.05, 0.02, -0.04))));
     let coupling = VirtualCoupling {
         linear_stiffness: 2000.0,
         angular_stiffness: 20.0,
@@ -481,4 +491,3 @@ fn a_tolerance_is_met_with_fewer_elements_than_an_even_mesh_needs() {
         }
     }
 }
-

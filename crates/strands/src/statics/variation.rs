@@ -35,7 +35,9 @@ pub(crate) fn vary(
     in_lanes: bool,
 ) -> Option<Columns> {
     if in_lanes {
-        let lane = |column: usize, pick: &dyn Fn(&Variation) -> f64| if column < 6 { pick(&columns[column]) } else { 0.0 };
+        let lane = |column: usize, pick: &dyn Fn(&Variation) -> f64| {
+            if column < 6 { pick(&columns[column]) } else { 0.0 }
+        };
         let gather = |pick: &dyn Fn(&Variation) -> f64| Lanes::<8>::from_fn(|i| lane(i, pick));
         let vector = |pick: &dyn Fn(&Variation) -> Vec3| {
             Vec3::new(gather(&|v| pick(v).x), gather(&|v| pick(v).y), gather(&|v| pick(v).z))
@@ -47,7 +49,10 @@ pub(crate) fn vary(
         let out = sweep::<Lanes<8>>(level, rod, loads, record, packed)?;
         let scatter = |v: Vec3<Lanes<8>>, i: usize| Vec3::new(v.x.0[i], v.y.0[i], v.z.0[i]);
         let part = |v: Vec6<Lanes<8>>, i: usize| Vec6::new(scatter(v.angular, i), scatter(v.linear, i));
-        return Some(core::array::from_fn(|i| Variation { frame: part(out.frame, i), wrench: part(out.wrench, i) }));
+        return Some(core::array::from_fn(|i| Variation {
+            frame: part(out.frame, i),
+            wrench: part(out.wrench, i),
+        }));
     }
     let mut out = *columns;
     for column in &mut out {
@@ -108,13 +113,11 @@ impl<R: Real, const KIRCHHOFF: bool> Kernel for DiagonalSweep<'_, R, KIRCHHOFF> 
 fn apply<R: Real, const KIRCHHOFF: bool>(f: &DiagonalFlexibility, dw: Wrench<R>) -> Vec6<R> {
     let moment = transpose_mul(&f.turn, dw.angular) + transpose_mul(&f.shift, dw.linear);
     let (bend, stretch) = if KIRCHHOFF {
-        (mul(&f.inner[0][0], moment), Vec3::zero())
+        (mul(&f.a, moment), Vec3::zero())
     } else {
         let force = transpose_mul(&f.turn, dw.linear);
-        (
-            mul(&f.inner[0][0], moment) + mul(&f.inner[0][1], force),
-            mul(&f.inner[1][0], moment) + mul(&f.inner[1][1], force),
-        )
+        let bend = mul(&f.a, moment) + mul(&f.b, force);
+        (bend, f.stretch.splat().scale(force) + mul(&f.c, bend))
     };
     let linear = mul(&f.shift, bend);
     Vec6::new(mul(&f.turn, bend), if KIRCHHOFF { linear } else { linear + mul(&f.turn, stretch) })
