@@ -17,7 +17,8 @@ fn main() -> io::Result<()> {
     let mut list = String::from("&[\n");
     for file in files {
         let name = file.strip_prefix(&base).map_err(io::Error::other)?;
-        let name = name.components().map(|part| part.as_os_str().to_string_lossy()).collect::<Vec<_>>().join("/");
+        let name =
+            name.components().map(|part| part.as_os_str().to_string_lossy()).collect::<Vec<_>>().join("/");
         list += &format!("    ({name:?}, include_bytes!({:?}).as_slice()),\n", file.display().to_string());
     }
     list += "]\n";

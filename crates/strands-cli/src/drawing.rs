@@ -16,6 +16,8 @@ pub struct Drawing {
     pub lines: Vec<String>,
     /// What its whole width is, m.
     pub width: f64,
+    /// What its whole height is, m.
+    pub height: f64,
 }
 
 /// Draws polylines. `up` is the direction that should point up where the plane allows.
@@ -40,7 +42,7 @@ pub fn draw(lines: &[Vec<Vec3>], up: Vec3) -> Drawing {
             canvas.stroke(place(&pair[0]), place(&pair[1]));
         }
     }
-    Drawing { lines: canvas.lines(), width: x1 - x0 }
+    Drawing { lines: canvas.lines(), width: x1 - x0, height: y1 - y0 }
 }
 
 /// The plane in which points mostly lie, as the directions on the screen: to the right and up.

@@ -16,7 +16,10 @@ use crate::{Failure, say, source};
 pub fn run(options: &New) -> Result<(), Failure> {
     let name = options.name.strip_suffix(".toml").unwrap_or(&options.name);
     if name.is_empty() || name.contains(['/', '\\']) {
-        return Err(Failure::bad(format!("`{}` is no name for a scene: it becomes the file NAME.toml here", options.name)));
+        return Err(Failure::bad(format!(
+            "`{}` is no name for a scene: it becomes the file NAME.toml here",
+            options.name
+        )));
     }
     let template = source::bundled(&options.template)?;
     let mut scene: DocumentMut = template.text.parse().map_err(Failure::bad)?;
@@ -32,5 +35,10 @@ pub fn run(options: &New) -> Result<(), Failure> {
         .open(&path)
         .map_err(|error| Failure::bad(format!("{}: {error}", path.display())))?;
     file.write_all(scene.to_string().as_bytes()).map_err(Failure::bad)?;
-    say(&format!("{} written; `strands solve {}` solves it, `strands view {}` shows it", path.display(), path.display(), path.display()))
+    say(&format!(
+        "{} written; `strands solve {}` solves it, `strands view {}` shows it",
+        path.display(),
+        path.display(),
+        path.display()
+    ))
 }

@@ -63,7 +63,8 @@ fn changes(overrides: &Overrides) -> Result<Vec<Change>, String> {
 }
 
 fn in_toml(scene: &mut DocumentMut, changes: &[Change], elements: Option<usize>) -> Result<(), String> {
-    if let (Some(elements), Some(rods)) = (elements, scene.get_mut("rods").and_then(Item::as_table_like_mut)) {
+    if let (Some(elements), Some(rods)) = (elements, scene.get_mut("rods").and_then(Item::as_table_like_mut))
+    {
         for (_, rod) in rods.iter_mut() {
             if let Some(rod) = rod.as_table_like_mut() {
                 rod.remove("tolerance");

@@ -1,11 +1,10 @@
 //! `strands solve`: reads a scene, solves it, says and writes what was found.
 
-use std::path::Path;
+use std::path::{Path, PathBuf};
 use std::time::Instant;
 
-use strands::math::Vec3;
-use strands::statics::{FailureReason, Solution, Workspace, solve};
-use strands_scene::{Model, Scene};
+use strands::statics::{RefineError, Solution, SolveFailure, Workspace, solve};
+use strands_scene::{Model, write};
 
 use crate::args::Solve;
 use crate::{Failure, colour_out, overrides, say, source, summary};
@@ -13,27 +12,34 @@ use crate::{Failure, colour_out, overrides, say, source, summary};
 /// A solved scene.
 #[derive(Debug)]
 pub struct Outcome {
-    /// Its name.
-    pub scene: String,
-    /// Gravity, m/s², world axes.
-    pub gravity: Vec3,
-    /// Its rods, in the scene's order.
-    pub rods: Vec<RodOutcome>,
+    /// The scene, each rod on the mesh that it was solved on.
+    pub model: Model,
+    /// The rods that were solved, in the scene's order. The first failure ends it.
+    pub solved: Vec<SolvedRod>,
+    /// The rod for which no equilibrium was found.
+    pub failed: Option<FailedRod>,
+    /// How long all of it took, s.
+    pub seconds: f64,
 }
 
-/// A solved rod.
+/// A rod and its equilibrium.
 #[derive(Debug)]
-pub struct RodOutcome {
-    /// Its name.
+pub struct SolvedRod {
+    /// The rod's name.
     pub name: String,
-    /// Order of its discretisation.
-    pub order: usize,
-    /// The equilibrium, or what came nearest to one.
+    /// The equilibrium.
     pub solution: Solution,
-    /// Why it is none.
-    pub failure: Option<FailureReason>,
     /// How long the solve took, s.
     pub seconds: f64,
+}
+
+/// A rod without an equilibrium.
+#[derive(Debug)]
+pub struct FailedRod {
+    /// The rod's name.
+    pub name: String,
+    /// Why there is none, and what came nearest.
+    pub failure: SolveFailure,
 }
 
 /// The command.
@@ -41,40 +47,112 @@ pub struct RodOutcome {
 /// # Errors
 /// Bad arguments, scenes and files; and, once everything is said and written, a solve that found no equilibrium.
 pub fn run(options: &Solve) -> Result<(), Failure> {
-    for path in &options.output {
-        known_ending(path)?;
-    }
+    let outputs: Vec<(&PathBuf, Format)> =
+        options.output.iter().map(|path| Ok((path, Format::of(path)?))).collect::<Result<_, Failure>>()?;
     let mut source = source::read(&options.scene)?;
-    source.text = overrides::apply(&source.text, source.is_json(), &options.overrides).map_err(Failure::bad)?;
-    let scene = source.parse()?;
-    let outcome = solve_all(&scene.model);
-    for path in &options.output {
-        write(path, &scene, &outcome)?;
+    source.text =
+        overrides::apply(&source.text, source.is_json(), &options.overrides).map_err(Failure::bad)?;
+    let outcome = solve_all(source.parse()?.model)?;
+    for (path, format) in outputs {
+        match format.bytes(&outcome) {
+            Some(bytes) => std::fs::write(path, bytes)
+                .map_err(|error| Failure::bad(format!("{}: {error}", path.display())))?,
+            None => eprintln!("note: {} is not written: there is no equilibrium to show", path.display()),
+        }
     }
     if options.json {
-        say(&json(&scene, &outcome))?;
+        say(&json(&outcome))?;
     } else {
         say(&summary::summary(&outcome, colour_out()))?;
     }
-    if outcome.rods.iter().any(|rod| rod.failure.is_some()) { Err(Failure::Unsolved) } else { Ok(()) }
+    if outcome.failed.is_some() { Err(Failure::Unsolved) } else { Ok(()) }
 }
 
-fn solve_all(model: &Model) -> Outcome {
+fn solve_all(model: Model) -> Result<Outcome, Failure> {
+    let start = Instant::now();
+    let model = match model.refined() {
+        Ok(refined) => refined,
+        // No equilibrium on one of the meshes that were tried: there is none to be expected on the first one either, and its answer says why.
+        Err(error) if matches!(error.reason, RefineError::Solve(_)) => model,
+        Err(error) => return Err(Failure::bad(error)),
+    };
     let mut workspace = Workspace::default();
-    let rods = model.rods.iter().map(|rod| {
+    let (mut solved, mut failed) = (Vec::with_capacity(model.rods.len()), None);
+    for rod in &model.rods {
         let start = Instant::now();
-        let solved = solve(&rod.problem, &model.settings, None, &mut workspace);
-        let seconds = start.elapsed().as_secs_f64();
-        let (solution, failure) = match solved {
-            Ok(solution) => (solution, None),
-            Err(failure) => (*failure.nearest, Some(failure.reason)),
-        };
-        let order = rod.problem.rod.order().as_number();
-        RodOutcome { name: rod.name.clone(), order, solution, failure, seconds }
-    });
-    Outcome { scene: model.name.clone(), gravity: model.gravity, rods: rods.collect() }
+        match solve(&rod.problem, &model.settings, None, &mut workspace) {
+            Ok(solution) => {
+                let seconds = start.elapsed().as_secs_f64();
+                solved.push(SolvedRod { name: rod.name.clone(), solution, seconds });
+            }
+            Err(failure) => {
+                failed = Some(FailedRod { name: rod.name.clone(), failure });
+                break;
+            }
+        }
+    }
+    Ok(Outcome { model, solved, failed, seconds: start.elapsed().as_secs_f64() })
 }
 
-fn known_ending(_path: &Path) -> Result<(), Failure> { Ok(()) }
-fn write(_path: &Path, _scene: &Scene, _outcome: &Outcome) -> Result<(), Failure> { Ok(()) }
-fn json(_scene: &Scene, _outcome: &Outcome) -> String { String::new() }
+/// The answer as one JSON object.
+fn json(outcome: &Outcome) -> String {
+    let Outcome { model, failed, seconds, .. } = outcome;
+    match failed {
+        Some(FailedRod { name, failure }) => {
+            write::failure_json(model, name, &failure.reason, &failure.nearest.report, Some(*seconds))
+        }
+        None => write::json(model, &solutions(outcome), Some(*seconds)),
+    }
+}
+
+fn solutions(outcome: &Outcome) -> Vec<(&str, &Solution)> {
+    outcome.solved.iter().map(|rod| (rod.name.as_str(), &rod.solution)).collect()
+}
+
+/// What a result can be written as.
+#[derive(Clone, Copy, Debug)]
+enum Format {
+    Json,
+    Csv,
+    Vtp,
+    Glb,
+    Svg,
+}
+
+impl Format {
+    const ALL: [(&str, Self); 5] = [
+        ("json", Self::Json),
+        ("csv", Self::Csv),
+        ("vtp", Self::Vtp),
+        ("glb", Self::Glb),
+        ("svg", Self::Svg),
+    ];
+
+    /// The format that a file's ending asks for.
+    fn of(path: &Path) -> Result<Self, Failure> {
+        let ending = path.extension().map(|ending| ending.to_string_lossy().to_ascii_lowercase());
+        let found = Self::ALL.iter().find(|(name, _)| ending.as_deref() == Some(*name));
+        found.map(|(_, format)| *format).ok_or_else(|| {
+            let known = Self::ALL.map(|(name, _)| format!(".{name}")).join(" ");
+            Failure::bad(format!(
+                "{}: a result is written by the file's ending, one of {known}",
+                path.display()
+            ))
+        })
+    }
+
+    /// The file's bytes. `None` where there is nothing to show, since the solve failed; only JSON can say so.
+    fn bytes(self, outcome: &Outcome) -> Option<Vec<u8>> {
+        if outcome.failed.is_some() && !matches!(self, Self::Json) {
+            return None;
+        }
+        let (model, solutions) = (&outcome.model, solutions(outcome));
+        Some(match self {
+            Self::Json => json(outcome).into_bytes(),
+            Self::Csv => write::csv(model, &solutions).into_bytes(),
+            Self::Vtp => write::vtp(model, &solutions).into_bytes(),
+            Self::Glb => write::glb(model, &solutions),
+            Self::Svg => write::svg(model, &solutions).into_bytes(),
+        })
+    }
+}

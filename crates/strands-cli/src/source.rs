@@ -46,7 +46,9 @@ impl Source {
 pub fn read(argument: &str) -> Result<Source, Failure> {
     if argument == "-" {
         let mut text = String::new();
-        std::io::stdin().read_to_string(&mut text).map_err(|error| Failure::bad(format!("standard input: {error}")))?;
+        std::io::stdin()
+            .read_to_string(&mut text)
+            .map_err(|error| Failure::bad(format!("standard input: {error}")))?;
         let file_name = if text.trim_start().starts_with('{') { "stdin.json" } else { "stdin.toml" };
         return Ok(Source { text, file_name: file_name.to_owned(), folder: Some(PathBuf::from(".")) });
     }
@@ -80,5 +82,5 @@ pub fn bundled(name: &str) -> Result<Source, Failure> {
 
 /// The JSON Schema of scene files.
 pub fn schema() -> String {
-    strands_scene::schema()
+    format!("{:#}", strands_scene::schema())
 }

@@ -3,74 +3,102 @@
 use std::fmt::Write;
 
 use anstyle::{AnsiColor, Style};
-use strands::math::Vec3;
+use strands::math::{Pose, Vec3};
+use strands::statics::Solution;
 
 use crate::drawing::draw;
-use crate::solve::{Outcome, RodOutcome};
-use crate::units::{digits, engineering};
+use crate::solve::{FailedRod, Outcome, SolvedRod};
+use crate::units::engineering;
 
-/// The summary of a solved scene: a picture, then for each rod what it does and how that was found.
+/// The summary of a scene: a picture, then for each rod what was found and how.
 pub fn summary(outcome: &Outcome, colour: bool) -> String {
-    let paint = |style: Style, text: &str| if colour { format!("{style}{text}{style:#}") } else { text.to_owned() };
-    let bold = Style::new().bold();
-    let mut out = String::new();
-    let lines: Vec<Vec<Vec3>> =
-        outcome.rods.iter().map(|rod| rod.solution.poses.iter().map(|pose| pose.position).collect()).collect();
-    if lines.iter().flatten().all(|p| p.is_finite()) {
-        let up = outcome.gravity.normalized().map_or(Vec3::Z, |down| -down);
-        let picture = draw(&lines, up);
-        for line in &picture.lines {
-            out += format!("  {}", paint(AnsiColor::Cyan.on_default(), line)).trim_end();
-            out.push('\n');
+    let paint = Paint(colour);
+    let mut out = picture(outcome, paint);
+    let _ = writeln!(out, "{}", paint.with(Style::new().bold(), &outcome.model.name));
+    let several = outcome.model.rods.len() > 1;
+    for rod in &outcome.solved {
+        if several {
+            let _ = writeln!(out, "\n{}", paint.with(Style::new().bold(), &rod.name));
         }
-        out += &format!("  {} across\n\n", engineering(picture.width, "m"));
+        let order = outcome.model.rod(&rod.name).map_or(0, |rod| rod.problem.rod.order().as_number());
+        for (what, value) in rows(rod, order) {
+            let _ = writeln!(out, "  {what:<9} {value}");
+        }
+        let (style, verdict) = verdict(&rod.solution);
+        let _ = writeln!(out, "  {:<9} {}", "result", paint.with(style, verdict));
     }
-    out += &paint(bold, &outcome.scene);
-    out.push('\n');
-    for rod in &outcome.rods {
-        if outcome.rods.len() > 1 {
-            out += &format!("\n{}\n", paint(bold, &rod.name));
+    if let Some(rod) = &outcome.failed {
+        if several {
+            let _ = writeln!(out, "\n{}", paint.with(Style::new().bold(), &rod.name));
         }
-        for (what, value) in rows(rod) {
-            let _ = writeln!(out, "  {what:<11} {value}");
-        }
-        let (style, verdict) = verdict(rod);
-        let _ = writeln!(out, "  {:<11} {}", "result", paint(style, &verdict));
+        out += &failed(rod, paint);
     }
     out.trim_end().to_owned()
 }
 
-fn rows(rod: &RodOutcome) -> Vec<(&'static str, String)> {
+/// Colours, or none.
+#[derive(Clone, Copy)]
+struct Paint(bool);
+
+impl Paint {
+    fn with(self, style: Style, text: &str) -> String {
+        if self.0 { format!("{style}{text}{style:#}") } else { text.to_owned() }
+    }
+}
+
+fn picture(outcome: &Outcome, paint: Paint) -> String {
+    let line = |poses: &[Pose]| poses.iter().map(|pose| pose.position).collect::<Vec<Vec3>>();
+    let mut lines: Vec<Vec<Vec3>> = outcome.solved.iter().map(|rod| line(&rod.solution.poses)).collect();
+    let mut of_what = "";
+    if let Some(rod) = &outcome.failed {
+        lines.push(line(&rod.failure.nearest.poses));
+        of_what = "; the nearest shape, no equilibrium";
+    }
+    if !lines.iter().flatten().all(|p| p.is_finite()) {
+        return String::new();
+    }
+    let up = outcome.model.gravity.normalized().map_or(Vec3::Z, |down| -down);
+    let drawing = draw(&lines, up);
+    let mut out = String::new();
+    for line in &drawing.lines {
+        let _ =
+            writeln!(out, "{}", format!("  {}", paint.with(AnsiColor::Cyan.on_default(), line)).trim_end());
+    }
+    let _ = writeln!(
+        out,
+        "  {} wide, {} high{of_what}\n",
+        engineering(drawing.width, "m"),
+        engineering(drawing.height, "m")
+    );
+    out
+}
+
+fn rows(rod: &SolvedRod, order: usize) -> Vec<(&'static str, String)> {
     let solution = &rod.solution;
     let report = &solution.report;
     let mut rows = Vec::new();
     if let Some(tip) = solution.poses.last() {
-        let wxyz = tip.orientation().to_wxyz().map(|x| format!("{x:.4}")).join(", ");
-        rows.push(("end", triple(tip.position, "m")));
+        let wxyz = tip.orientation().to_wxyz().map(|x| without_minus_zero(format!("{x:.4}"))).join(", ");
+        rows.push(("end", format!("at {}", triple(tip.position, "m"))));
         rows.push(("", format!("orientation [{wxyz}]")));
     }
     for reaction in &solution.reactions {
-        let (force, moment) = (reaction.force, reaction.moment);
-        if force == Vec3::ZERO && moment == Vec3::ZERO {
+        // A free end bears nothing.
+        if reaction.force == Vec3::ZERO && reaction.moment == Vec3::ZERO {
             continue;
         }
-        rows.push((
-            "reaction",
-            format!("at s = {}: {}  {}", engineering(reaction.s, "m"), sized(force, "N"), triple(force, "N")),
-        ));
-        rows.push(("", format!("{}  {}", sized(moment, "N·m"), triple(moment, "N·m"))));
+        rows.push(("support", format!("at s = {}", engineering(reaction.s, "m"))));
+        rows.push(("", format!("force  {}", sized(reaction.force, "N"))));
+        rows.push(("", format!("moment {}", sized(reaction.moment, "N·m"))));
     }
-    rows.push((
-        "energy",
-        format!("{} elastic, {} of the loads", engineering(solution.energy.elastic, "J"), engineering(solution.energy.load, "J")),
-    ));
+    let (elastic, load) = (engineering(solution.energy.elastic, "J"), engineering(solution.energy.load, "J"));
+    rows.push(("energy", format!("{elastic} elastic, {load} of the loads")));
     rows.push((
         "solver",
         format!(
-            "{}, {} elements, order {}, {} iterations, residual {:.1e}, {}",
+            "{}, {} elements of order {order}, {} iterations, residual {:.1e}, {}",
             report.method.name(),
             solution.strain.len(),
-            rod.order,
             report.iterations,
             report.residual,
             engineering(rod.seconds, "s"),
@@ -79,20 +107,46 @@ fn rows(rod: &RodOutcome) -> Vec<(&'static str, String)> {
     rows
 }
 
-fn verdict(rod: &RodOutcome) -> (Style, String) {
-    let good = AnsiColor::Green.on_default().bold();
-    let doubtful = AnsiColor::Yellow.on_default().bold();
-    if let Some(reason) = &rod.failure {
-        return (AnsiColor::Red.on_default().bold(), format!("failed: {reason}"));
-    }
-    match rod.solution.report.morse_index {
-        Some(0) => (good, "stable equilibrium (Morse index 0)".to_owned()),
-        Some(index) => (doubtful, format!("UNSTABLE equilibrium (Morse index {index})")),
-        None => (good, "equilibrium; its loads have no potential, so stability is not known".to_owned()),
+fn verdict(solution: &Solution) -> (Style, &'static str) {
+    match solution.report.morse_index {
+        Some(0) => (AnsiColor::Green.on_default().bold(), "stable equilibrium"),
+        Some(1) => {
+            (AnsiColor::Yellow.on_default().bold(), "UNSTABLE equilibrium: one way to fall (Morse index 1)")
+        }
+        Some(_) => (
+            AnsiColor::Yellow.on_default().bold(),
+            "UNSTABLE equilibrium: several ways to fall (Morse index 2 or more)",
+        ),
+        None => (
+            AnsiColor::Green.on_default().bold(),
+            "equilibrium; its stability is not known, since the loads have no potential",
+        ),
     }
 }
 
-/// A vector with one prefix for all its parts, four digits of the largest.
+fn failed(rod: &FailedRod, paint: Paint) -> String {
+    let report = &rod.failure.nearest.report;
+    let last = report.residual_history.len().saturating_sub(8);
+    let history: Vec<String> = report.residual_history[last..].iter().map(|x| format!("{x:.1e}")).collect();
+    let mut out = String::new();
+    let _ = writeln!(
+        out,
+        "  {:<9} {} iterations; the last residuals: {}",
+        "solver",
+        report.iterations,
+        history.join(" ")
+    );
+    let reason = format!("failed: {}", rod.failure.reason);
+    let _ = writeln!(out, "  {:<9} {}", "result", paint.with(AnsiColor::Red.on_default().bold(), &reason));
+    out
+}
+
+/// A vector's length, and the vector.
+fn sized(v: Vec3, unit: &str) -> String {
+    format!("{:<12} {}", engineering(v.norm(), unit), triple(v, unit))
+}
+
+/// A vector with one prefix for all its parts, and four digits of the largest.
 fn triple(v: Vec3, unit: &str) -> String {
     let largest = v.max_abs();
     if largest == 0.0 || !largest.is_finite() {
@@ -100,18 +154,16 @@ fn triple(v: Vec3, unit: &str) -> String {
     }
     let written = engineering(largest, unit);
     let (number, unit) = written.split_once(' ').unwrap_or((&written, unit));
-    let scale = number.parse::<f64>().map_or(1.0, |number| number / largest);
     let decimals = number.split_once('.').map_or(0, |(_, decimals)| decimals.len());
-    // Rounding to a power of ten: the number's own rounding is not the scale's.
-    let scale = 10_f64.powf(scale.log10().round());
-    let part = |x: f64| {
-        let text = format!("{:.decimals$}", x * scale);
-        if text.trim_start_matches('-').bytes().all(|c| c == b'0' || c == b'.') { text.trim_start_matches('-').to_owned() } else { text }
-    };
+    // The prefix as a factor, which the rounding of the number must not touch.
+    let factor = number.parse::<f64>().map_or(1.0, |number| 10_f64.powf((number / largest).log10().round()));
+    let part = |x: f64| without_minus_zero(format!("{:.decimals$}", x * factor));
     format!("({}, {}, {}) {unit}", part(v.x), part(v.y), part(v.z))
 }
 
-fn sized(v: Vec3, unit: &str) -> String {
-    let norm = v.norm();
-    if norm.is_finite() { engineering(norm, unit) } else { format!("{} {unit}", digits(norm, 4)) }
+fn without_minus_zero(text: String) -> String {
+    match text.strip_prefix('-') {
+        Some(number) if number.bytes().all(|c| matches!(c, b'0' | b'.')) => number.to_owned(),
+        _ => text,
+    }
 }

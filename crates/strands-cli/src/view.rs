@@ -50,7 +50,9 @@ fn bind(port: Option<u16>) -> Result<Server, Failure> {
 /// Whether a browser would have a screen to show itself on.
 fn has_screen() -> bool {
     cfg!(any(windows, target_os = "macos"))
-        || ["DISPLAY", "WAYLAND_DISPLAY"].iter().any(|name| std::env::var_os(name).is_some_and(|value| !value.is_empty()))
+        || ["DISPLAY", "WAYLAND_DISPLAY"]
+            .iter()
+            .any(|name| std::env::var_os(name).is_some_and(|value| !value.is_empty()))
 }
 
 fn answer(request: Request, scene: Option<&Source>) -> std::io::Result<()> {

@@ -9,7 +9,9 @@ use std::time::Instant;
 use serde::Serialize;
 use strands::math::SimdLevel;
 use strands::rod::{Order, RodError};
-use strands::statics::{Guess, Jacobian, Problem, Scheme, Settings, Solution, SolveFailure, Workspace, solve};
+use strands::statics::{
+    Guess, Jacobian, Problem, Scheme, Settings, Solution, SolveFailure, Workspace, solve,
+};
 
 /// What `--help` says about the figures.
 pub const NAMES: &str = "\
@@ -65,7 +67,9 @@ pub fn measure() -> Result<Vec<Figure>, BenchError> {
 /// The figures as a table for people.
 pub fn table(figures: &[Figure]) -> String {
     let wide = figures.iter().map(|figure| figure.name.len()).max().unwrap_or(0);
-    let line = |figure: &Figure| format!("  {:<wide$}  {:>10}  {}\n", figure.name, crate::units::digits(figure.value, 4), figure.unit);
+    let line = |figure: &Figure| {
+        format!("  {:<wide$}  {:>10}  {}\n", figure.name, crate::units::digits(figure.value, 4), figure.unit)
+    };
     let lines: String = figures.iter().map(line).collect();
     format!("Vector instructions: {}\n{lines}", SimdLevel::detect().name())
 }

@@ -18,7 +18,11 @@ fn wire(elements: usize, order: Order) -> Result<Problem, RodError> {
     let description = RodDescription {
         length: LENGTH,
         kinematics: Kinematics::Cosserat,
-        profile: Profile::Stations(vec![Station { s: 0.0, section: Section::Circle { radius: 1e-3 }, material }]),
+        profile: Profile::Stations(vec![Station {
+            s: 0.0,
+            section: Section::Circle { radius: 1e-3 },
+            material,
+        }]),
         rest: RestShape::default(),
         base: Pose::IDENTITY,
     };
