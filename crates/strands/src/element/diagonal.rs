@@ -203,7 +203,6 @@ impl<R: Real, V: Shift<R>> LocalSolver<R> for Second<R, V> {
         let mut correction = if V::FREE { self.history.next::<true>() } else { self.history.next::<false>() };
         let straight = points[0].rest.linear.splat::<R>();
         let mut strain = corrected::<R, V>(&explicit, &correction, straight);
-        let mut newton: Option<LocalNewton<R>> = None;
         for iteration in 0..MAX_LOCAL_ITERATIONS {
             let (u, v) = (strain.angular * length, V::new(strain.linear, length));
             let t = u.dot(u);
@@ -224,7 +223,7 @@ impl<R: Real, V: Shift<R>> LocalSolver<R> for Second<R, V> {
             } else if iteration < SERIES_STEPS {
                 local.series_step::<V>(u, v, length, compliance, wrench, residual)
             } else {
-                newton.get_or_insert_with(|| LocalNewton::new(h, compliance, strain, wrench)).step(residual)
+                LocalNewton::new(h, compliance, strain, wrench).step(residual)
             };
             correction += step;
             strain = corrected::<R, V>(&explicit, &correction, straight);

@@ -52,7 +52,7 @@ proptest! {
     fn the_quick_and_the_general_solver_find_the_same_strain(
         points in prop::array::uniform2(point()),
         w in vec6(0.3, 3.0),
-        h in 0.001..0.15f64,
+        h in 0.001..0.05f64,
         kirchhoff in any::<bool>(),
     ) {
         let kinematics = if kirchhoff { Kinematics::Kirchhoff } else { Kinematics::Cosserat };
