@@ -1,5 +1,7 @@
 //! What the README shows is what happens.
 
+use std::f64::consts::FRAC_PI_2;
+
 use strands::load::NodalLoads;
 use strands::math::{Pose, Vec3, Vec6};
 use strands::rod::{Kinematics, Material, Order, Profile, RestShape, Rod, RodDescription, Section, Station};
@@ -58,7 +60,7 @@ fn the_code_runs() -> Result<(), Box<dyn std::error::Error>> {
     let mut problem = Problem { loads: weight, ..Problem::cantilever(rod) };
 
     // Hold the end in a hand: 100 mm aside, 200 mm up, turned by a right angle.
-    let turned = Pose::exp(Vec6::new(Vec3::Y * 1.5708, Vec3::ZERO));
+    let turned = Pose::exp(Vec6::new(Vec3::Y * FRAC_PI_2, Vec3::ZERO));
     problem.end = End::clamped(Pose { position: Vec3::new(0.1, 0.0, 0.2), ..turned });
 
     let solution = solve(&problem, &Settings::default(), None, &mut Workspace::default())?;
