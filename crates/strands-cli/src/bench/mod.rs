@@ -25,8 +25,9 @@ Figures (all of a steel wire 0.5 m long, 2 mm thick, one thread):
                                    and 1°, from the last solution, µs
   warm.iterations                  mean Newton iterations of those
   jacobian.variational_lanes .variational .finite_differences .finite_difference_lanes
-                                   one Jacobian, over one sweep of the same rod (from times of
-                                   whole solves that differ by it)
+                                   one Jacobian, over one sweep of the same rod, from times of
+                                   whole solves; by finite differences it is six sweeps, which
+                                   sets the scale
   cost.50 … cost.5000              two-sweep solve of that many elements, ns an element
   cost.worst_over_best             the largest of those over the smallest
 
