@@ -20,6 +20,7 @@ mod document;
 mod error;
 mod file;
 mod model;
+mod schema;
 mod words;
 pub mod write;
 
@@ -27,6 +28,7 @@ pub use bundled::{Bundled, bundled, bundled_scene};
 pub use error::SceneError;
 pub use file::*;
 pub use model::{MeshChoice, MeshError, Model, ModelRod};
+pub use schema::schema;
 
 use document::{Document, KeyPath, Value};
 use std::path::Path;
@@ -49,9 +51,7 @@ impl Scene {
     /// # Errors
     /// The first thing that is wrong, with its place and a mend.
     pub fn parse(text: &str, file_name: &str, folder: Option<&Path>) -> Result<Self, SceneError> {
-        let document = Document::parse(text, file_name)?;
-        check_format(&document)?;
-        let file: SceneFile = document::from_document(&document)?;
+        let (document, file) = written(text, file_name)?;
         let model = build::model(&document, &file, folder)?;
         Ok(Self { file, model })
     }
@@ -66,9 +66,21 @@ impl Scene {
     }
 }
 
-/// The JSON Schema of scene files.
-pub fn schema() -> serde_json::Value {
-    schemars::schema_for!(SceneFile).to_value()
+impl SceneFile {
+    /// Reads a scene as written: JSON where `file_name` ends in `.json`, else TOML. Types and keys are checked, numbers are not.
+    ///
+    /// # Errors
+    /// The first thing that is wrong, with its place and a mend.
+    pub fn parse(text: &str, file_name: &str) -> Result<Self, SceneError> {
+        written(text, file_name).map(|(_, file)| file)
+    }
+}
+
+fn written(text: &str, file_name: &str) -> Result<(Document, SceneFile), SceneError> {
+    let document = Document::parse(text, file_name)?;
+    check_format(&document)?;
+    let file = document::from_document(&document)?;
+    Ok((document, file))
 }
 
 /// Refuses another version of the format before its unknown keys are complained about.

@@ -91,6 +91,58 @@ pub(crate) fn example(key: &str) -> Option<&'static str> {
         "at" => "give `at = \"start\"`, `at = \"end\"`, or metres from the start",
         "fix" => "say what it holds, as `fix = [\"position\", \"orientation\"]`",
         "s" => "give the place in metres from the rod's start, as `s = 0.1`",
+        "length" => "give it in metres, as `length = 0.3`",
+        "radius" | "outer_radius" => "give it in metres, as 75e-6 for 75 µm",
+        "inner_radius" => "give it in metres; 0 for a full section",
+        "a" | "b" => "give half the extent along d1 (`a`) and d2 (`b`) in metres, as 40e-6",
+        "width" | "height" => "give the side along d1 (`width`) and d2 (`height`) in metres, as 10e-3",
+        "poisson_ratio" => "most metals have about 0.3, polymers 0.4, rubber nearly 0.5",
+        "shear_modulus" => "give it in Pa, as `shear_modulus = 77e9`",
+        "damping" => "give a time in s, as `damping = 1e-3`; 0 for none",
+        "tolerance" => "a small number, as `tolerance = 1e-4`",
+        "mass_per_length" => "give it in kg/m, as `mass_per_length = 1e-3`; 0 for a rod without weight",
+        "rotational_inertia_per_length" => "give it in kg·m about d1, d2 and d3, as [1e-9, 1e-9, 2e-9]",
+        "axial" => "give EA in N, as `axial = 1e4`; a rod with `kinematics = \"kirchhoff\"` does without",
+        "shear" => {
+            "give it along d1 and d2 in N, as `shear = [4e3, 4e3]`; a rod with `kinematics = \"kirchhoff\"` does without"
+        }
+        "linear_stiffness" => "give it in N/m, as `linear_stiffness = 50.0`",
+        "angular_stiffness" => "give it in N·m/rad, as `angular_stiffness = 1e-3`",
+        "linear_damping" => "give it in N·s/m, as `linear_damping = 0.05`; 0 for none",
+        "angular_damping" => "give it in N·m·s/rad, as `angular_damping = 1e-6`; 0 for none",
+        "max_force" => "give it in N, as `max_force = 3.3`; leave it out for no limit",
+        "max_torque" => "give it in N·m, as `max_torque = 0.02`; leave it out for no limit",
+        "friction" => "give Coulomb's coefficient, as `friction = 0.3`; 0 for none",
+        "time_step" | "duration" => "give it in s, as 1e-3",
+        "output_rate" => "give it in frames a second, as `output_rate = 60`",
+        "hand" => "describe the hand in `[coupling.hand]`",
+        "rod" => "name the rod that the hand holds, as `rod = \"thread\"`",
+        "gravity" => "give it in m/s², as `gravity = [0.0, 0.0, -9.81]`",
+        "position" => "give [x, y, z] in metres, as `position = [0.0, 0.0, 0.1]`",
+        "orientation" => {
+            "give a unit quaternion [w, x, y, z]; no rotation is `orientation = [1.0, 0.0, 0.0, 0.0]`"
+        }
+        "force" => "give it in N, as `force = [0.0, 0.0, -0.1]`",
+        "moment" => "give it in N·m, as `moment = [0.0, 0.0, 1e-5]`",
+        "force_per_length" => "give it in N/m, as `force_per_length = [0.0, 0.0, -0.01]`",
+        "moment_per_length" => "give it in N, as `moment_per_length = [0.0, 0.0, 1e-3]`",
+        "elements" | "max_iterations" => "give a whole number, as 100",
+        "order" => "use 1, 2 or 4",
+        "points" => {
+            "give points in metres, as `points = [[0.0, 0.0, 0.0], [0.0, 0.0, 0.1], [0.0, 0.05, 0.2]]`"
+        }
+        "matrix" => "give six rows of six numbers, for κ1, κ2, τ, v1, v2, v3",
+        "material" => "name one, as `material = \"steel\"`, and describe it in `[materials.steel]`",
+        "section" => {
+            "give it as `section = { shape = \"circle\", radius = 1e-3 }`, or a list of them with `s`"
+        }
+        "rest" => "give it as `rest = { curvature = [0.0, 8.0, 0.0] }`; a straight rod needs none",
+        "stiffness" => {
+            "give it as `stiffness = { bending = [1e-3, 1e-3], torsion = 8e-4, axial = 1e4, shear = [4e3, 4e3] }`"
+        }
+        "supports" => "write each as `[[rods.thread.supports]]`, with `at` and `fix`",
+        "loads" => "write each as `[[rods.thread.loads]]`, with `at` and `force`",
+        "pitch" => "give the rise in one turn in metres, as `pitch = 6e-3`",
         "bending" => "give it about d1 and d2 in N·m², as `bending = [1e-3, 1e-3]`",
         "torsion" => "give it in N·m², as `torsion = 8e-4`",
         "curvature" => "give it in 1/m about d1, d2 and d3, as `curvature = [0.0, 8.0, 0.0]`",

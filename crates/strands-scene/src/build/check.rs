@@ -1,6 +1,6 @@
 //! Checks of single numbers, with errors at their place.
 
-use crate::document::{Document, KeyPath, Step};
+use crate::document::{Document, KeyPath};
 use crate::error::SceneError;
 use crate::words;
 use strands::math::Quat;
@@ -24,12 +24,22 @@ impl Document {
         if met {
             return Ok(value);
         }
-        let key = last_key(path);
+        let key = path.last_key().unwrap_or("the value");
         let error = self.error(path, format!("{key} {must}, but is {value}"));
         Err(match words::example(key) {
             Some(example) => error.mend(example),
             None => error,
         })
+    }
+
+    /// The error of a key that is missing, at the table that lacks it.
+    pub fn missing(&self, path: &KeyPath) -> SceneError {
+        let key = path.last_key().unwrap_or_default();
+        let error = self.error(path, format!("`{key}` is missing"));
+        match words::example(key) {
+            Some(example) => error.mend(example),
+            None => error,
+        }
     }
 
     /// A unit quaternion.
@@ -50,13 +60,4 @@ impl Document {
                 .mend("no rotation is [1.0, 0.0, 0.0, 0.0]")),
         }
     }
-}
-
-/// The innermost key of a path.
-fn last_key(path: &KeyPath) -> &str {
-    let key = path.steps().iter().rev().find_map(|step| match step {
-        Step::Key(key) => Some(key.as_str()),
-        Step::Index(_) => None,
-    });
-    key.unwrap_or("the value")
 }

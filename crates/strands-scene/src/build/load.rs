@@ -59,7 +59,7 @@ fn point(
     length: f64,
 ) -> Result<PointLoad, SceneError> {
     let Some(at) = written.at else {
-        let error = context.document.error(path, "the load does not say where it acts");
+        let error = context.document.error(&path.key("at"), "the load does not say where it acts");
         return Err(error.mend("add `at = \"end\"`, or metres from the start, as `at = 0.1`"));
     };
     if written.force.is_none() && written.moment.is_none() {

@@ -6,7 +6,7 @@ use crate::error::SceneError;
 use crate::file::{KinematicsName, RodFile, SectionFile, SectionsFile, ShapeName, StiffnessFile};
 use crate::words;
 use strands::math::Vec3;
-use strands::rod::{Law, Material, Profile, Section, Station, Stiffness};
+use strands::rod::{Law, Material, Profile, RodError, Section, Station, Stiffness};
 
 /// A rod that gives a bending stiffness only is drawn with this part of its length as its radius.
 const DRAWN_RADIUS: f64 = 1.0 / 200.0;
@@ -39,7 +39,8 @@ pub(super) fn profile(
             Err(error.mend("keep `section` with `material`, or `stiffness` alone"))
         }
         (None, None) => {
-            let error = context.document.error(path, "the rod has neither `section` nor `stiffness`");
+            let error =
+                context.document.error(&path.key("section"), "the rod has neither `section` nor `stiffness`");
             Err(error.mend("add its section, as `section = { shape = \"circle\", radius = 1e-3 }`"))
         }
     }
@@ -58,7 +59,7 @@ fn stations(
             Some(name) => format!("add `material = \"{name}\"` to the rod"),
             None => "describe one in `[materials.steel]` and add `material = \"steel\"` to the rod".into(),
         };
-        context.document.error(place, "the rod has no material").mend(mend)
+        context.document.error(&place.key("material"), "the rod has no material").mend(mend)
     };
     let path_of_section = path.key("section");
     let written = match sections {
@@ -140,7 +141,10 @@ fn follows(
     }
     if station.s > before.s && before.section.interpolate(&station.section, 0.5).is_none() {
         let (from, to) = (before.section.name(), station.section.name());
-        let error = document.error(&place.key("shape"), format!("nothing lies between a {from} and a {to}"));
+        let error = document.error(
+            &place.key("shape"),
+            format!("the shape cannot change little by little from {from} to {to}"),
+        );
         return Err(error.mend(step));
     }
     if station.s > before.s && before.material != station.material {
@@ -191,8 +195,9 @@ fn section(
     }
     let size = |key: &str| {
         let written = sizes.iter().find(|(name, _)| *name == key).and_then(|(_, size)| *size);
-        let size =
-            written.ok_or_else(|| document.error(path, format!("`{key}` is missing")).mend(needs.clone()))?;
+        let size = written.ok_or_else(|| {
+            document.error(&path.key(key), format!("`{key}` is missing")).mend(needs.clone())
+        })?;
         if key == "inner_radius" {
             document.not_negative(&path.key(key), size)
         } else {
@@ -246,7 +251,10 @@ fn given(
         Some(mass) => document.not_negative(&path.key("mass_per_length"), mass)?,
         None if context.gravity == Vec3::ZERO => 0.0,
         None => {
-            let error = document.error(path, "there is gravity, but the rod has no `mass_per_length`");
+            let error = document.error(
+                &path.key("mass_per_length"),
+                "there is gravity, but the rod has no `mass_per_length`",
+            );
             return Err(
                 error.mend("give it in kg/m, as `mass_per_length = 1e-3`; 0 for a rod without weight")
             );
@@ -268,8 +276,18 @@ fn given(
             }
             let place = table.key("matrix");
             let law = Law::full(*matrix).map_err(|error| {
-                let mend = "rows and columns stand for κ1, κ2, τ, v1, v2, v3; a diagonal matrix of positive numbers is the simplest";
-                document.error(&place, error.to_string()).mend(mend)
+                let (place, message) = match error {
+                    RodError::NotSymmetric { row: i, column: j } => (
+                        place.index(j).index(i),
+                        format!("the stiffness matrix is not symmetric: {} and {} differ", matrix[j][i], matrix[i][j]),
+                    ),
+                    RodError::NotPositiveDefinite { row } => {
+                        (place.index(row), format!("the stiffness matrix is not positive definite: row {} shows it", row + 1))
+                    }
+                    other => (place.clone(), other.to_string()),
+                };
+                let error = document.error(&place, message);
+                error.mend("rows and columns stand for κ1, κ2, τ, v1, v2, v3; the entry of row i and column j is that of row j and column i")
             })?;
             (law, [matrix[0][0], matrix[1][1]], matrix[5][5])
         }
@@ -291,13 +309,7 @@ fn diagonal(
     length: f64,
 ) -> Result<Stiffness, SceneError> {
     let document = context.document;
-    let missing = |key: &str| {
-        let error = document.error(table, format!("`{key}` is missing"));
-        match words::example(key) {
-            Some(example) => error.mend(example),
-            None => error,
-        }
-    };
+    let missing = |key: &str| document.missing(&table.key(key));
     let pair = |key: &str, values: [f64; 2]| {
         let place = table.key(key);
         Ok([document.positive(&place.index(0), values[0])?, document.positive(&place.index(1), values[1])?])

@@ -30,7 +30,7 @@ pub(super) fn unloaded(context: &Context, path: &KeyPath, rod: &RodFile) -> Resu
     let rest = path.key("rest");
     let with_length = |shape: RestShape| match length {
         Some(length) => Ok(Unloaded { shape, length, start: None }),
-        None => Err(document.error(path, "`length` is missing").mend("give it in metres, as `length = 0.3`")),
+        None => Err(document.missing(&path.key("length"))),
     };
     let Some(written) = &rod.rest else { return with_length(RestShape::default()) };
     only_one(context, &rest, written)?;

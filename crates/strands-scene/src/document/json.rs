@@ -14,7 +14,9 @@ pub(super) fn parse(source: &Source) -> Result<Node, SceneError> {
         let at = offset(&source.text, error.line(), error.column());
         let said = error.to_string();
         let message = said.split(" at line ").next().unwrap_or(&said);
-        source.error(&KeyPath::default(), at..at + usize::from(at < source.text.len()), message)
+        let width = source.text[at..].chars().next().map_or(0, char::len_utf8);
+        let error = source.error(&KeyPath::default(), at..at + width, message);
+        error.mend("JSON has double quotes around every key, no comma after the last entry, and no comments")
     })?;
     let mut root = Reader(source).node(raw, &KeyPath::default())?;
     if !matches!(root.value, Value::Table(_)) {

@@ -41,6 +41,14 @@ impl KeyPath {
         Self(steps)
     }
 
+    /// The innermost key.
+    pub fn last_key(&self) -> Option<&str> {
+        self.0.iter().rev().find_map(|step| match step {
+            Step::Key(key) => Some(key.as_str()),
+            Step::Index(_) => None,
+        })
+    }
+
     pub fn steps(&self) -> &[Step] {
         &self.0
     }

@@ -17,8 +17,11 @@ use std::fmt;
 pub(crate) fn from_document<'de, T: Deserialize<'de>>(document: &'de Document) -> Result<T, SceneError> {
     T::deserialize(&document.root).map_err(|error| {
         let path = KeyPath::from_innermost(error.steps);
-        let span = error.span.unwrap_or(0..0);
-        let located = document.source.error(&path, span, error.message);
+        let located = document.source.error(&path, error.span.unwrap_or(0..0), error.message);
+        if error.mends.is_empty() {
+            let example = path.last_key().and_then(words::example);
+            return located.mend(example.unwrap_or("`strands schema` lists every key and what it takes"));
+        }
         error.mends.into_iter().fold(located, SceneError::mend)
     })
 }
@@ -98,9 +101,6 @@ impl serde::de::Error for ReadError {
 
     fn missing_field(field: &'static str) -> Self {
         let mut error = Self::new(format!("`{field}` is missing"));
-        if let Some(mend) = words::example(field) {
-            error = error.mend(mend);
-        }
         error.steps.push(Step::Key(field.to_owned()));
         error
     }

@@ -8,7 +8,13 @@ use ::toml::de::{DeTable, DeValue};
 pub(super) fn parse(source: &Source) -> Result<Node, SceneError> {
     let table = DeTable::parse(&source.text).map_err(|error| {
         let span = error.span().unwrap_or(0..0);
-        source.error(&KeyPath::default(), span, error.message().trim_end())
+        let message = error.message().trim_end();
+        let mend = if message.contains("duplicate key") {
+            "keep one of the two"
+        } else {
+            "in TOML a line is `key = value`: text in quotes, numbers without a unit, lists in [ ], tables in { }"
+        };
+        source.error(&KeyPath::default(), span, message).mend(mend)
     })?;
     let span = 0..0;
     Ok(Node { span, value: Reader(source).table(table.into_inner(), &KeyPath::default())? })

@@ -154,7 +154,7 @@ impl<'de> Deserialize<'de> for Place {
                 match word {
                     "start" => Ok(Place::Start),
                     "end" => Ok(Place::End),
-                    _ => Err(E::unknown_variant(word, &["start", "end"])),
+                    _ => Err(E::unknown_variant(word, &["start", "end", "metres from the start"])),
                 }
             }
 

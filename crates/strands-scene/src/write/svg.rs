@@ -94,22 +94,22 @@ fn drawn(rod: &Solved<'_>, view: &View, frame: &Frame, colour: &str) -> String {
         }
     }
     let [x, y] = place(&poses[poses.len() / 2]);
-    // The halo keeps the name readable where the rod crosses it.
+    let (x, y) = (x + 0.5 * width + 6.0, y - 0.5 * width - 6.0);
+    let name = escaped(&rod.rod.name);
+    // A halo, and the name on it, so that it can be read where the rod crosses.
     out + &format!(
-        "\n<text x=\"{:.2}\" y=\"{:.2}\" fill=\"{colour}\" stroke=\"#fcfcfa\" stroke-width=\"4\" paint-order=\"stroke\">{}</text>",
-        x + 0.5 * width + 6.0,
-        y - 0.5 * width - 6.0,
-        escaped(&rod.rod.name)
+        "\n<text x=\"{x:.2}\" y=\"{y:.2}\" stroke=\"#fcfcfa\" stroke-width=\"5\" stroke-linejoin=\"round\">{name}</text>\
+         \n<text x=\"{x:.2}\" y=\"{y:.2}\" fill=\"{colour}\">{name}</text>"
     )
 }
 
-/// The world's axes in the lower left corner; one that points at the viewer is left out.
+/// The world's axes in the lower left corner; one that points at the viewer, or nearly, is left out.
 fn axes(view: &View) -> String {
     let (x0, y0, size) = (48.0, HEIGHT - 48.0, 32.0);
     let mut out = String::from("<g stroke=\"#444\" fill=\"#444\" stroke-width=\"1.5\">");
     for (name, axis) in [("x", Vec3::X), ("y", Vec3::Y), ("z", Vec3::Z)] {
         let [x, y] = view.project(axis);
-        if x.hypot(y) < 0.15 {
+        if x.hypot(y) < 0.3 {
             continue;
         }
         let (x, y) = (x0 + size * x, y0 - size * y);

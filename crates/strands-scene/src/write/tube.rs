@@ -43,8 +43,19 @@ impl Tube {
                     tube.triangles.push([near + i, far + j, far + i]);
                 }
             }
-            tube.cap(&ring(span.start), &solved.solution.poses[span.start], span.start, false);
-            tube.cap(&ring(span.end), &solved.solution.poses[span.end], span.end, true);
+            for (node, ahead) in [(span.start, false), (span.end, true)] {
+                let here = ring(node);
+                let beyond = if ahead {
+                    mesh.nodes().get(node + 1)
+                } else {
+                    node.checked_sub(1).map(|i| &mesh.nodes()[i])
+                };
+                let goes_on = beyond
+                    .is_some_and(|beyond| outline(solved, mesh.nodes()[node], *beyond).points == here.points);
+                if !goes_on {
+                    tube.cap(&here, &solved.solution.poses[node], node, ahead);
+                }
+            }
         }
         tube
     }
@@ -55,7 +66,7 @@ impl Tube {
         }
     }
 
-    /// Closes an end, as a fan about its first point. Caps inside the rod are hidden except at steps, where they are seen.
+    /// Closes an end, or a step of the section, as a fan about its first point.
     fn cap(&mut self, outline: &Outline, pose: &Pose, node: usize, ahead: bool) {
         let first = self.positions.len();
         let normal = pose.rotation.cols[2] * if ahead { 1.0 } else { -1.0 };

@@ -1,0 +1,285 @@
+//! A scene that is written reads back as the same scene; the schema says what is read.
+
+use indexmap::IndexMap;
+use proptest::prelude::*;
+use strands_scene::*;
+
+fn number() -> impl Strategy<Value = f64> {
+    prop_oneof![-1e3..1e3_f64, 1e-9..1e-3_f64, Just(0.0), (-5..5_i32).prop_map(f64::from)]
+}
+
+fn positive() -> impl Strategy<Value = f64> {
+    prop_oneof![1e-6..1e6_f64, Just(1.0)]
+}
+
+fn vector() -> impl Strategy<Value = [f64; 3]> {
+    [number(), number(), number()]
+}
+
+fn word() -> impl Strategy<Value = String> {
+    prop_oneof!["[a-z_]{1,8}", r#"[ -~äµ"'\\.\[\]]{1,8}"#]
+}
+
+fn place() -> impl Strategy<Value = Place> {
+    prop_oneof![Just(Place::Start), Just(Place::End), number().prop_map(Place::At)]
+}
+
+fn material() -> impl Strategy<Value = MaterialFile> {
+    (
+        positive(),
+        prop::option::of(number()),
+        prop::option::of(positive()),
+        number(),
+        prop::option::of(number()),
+    )
+        .prop_map(|(youngs_modulus, poisson_ratio, shear_modulus, density, damping)| MaterialFile {
+            youngs_modulus,
+            poisson_ratio,
+            shear_modulus,
+            density,
+            damping,
+        })
+}
+
+fn section() -> impl Strategy<Value = SectionFile> {
+    let shape = prop::sample::select(vec![
+        ShapeName::Circle,
+        ShapeName::Annulus,
+        ShapeName::Ellipse,
+        ShapeName::Rectangle,
+    ]);
+    let size = || prop::option::of(positive());
+    (shape, [size(), size(), size(), size(), size(), size(), size(), size()], prop::option::of(word()))
+        .prop_map(|(shape, [s, radius, outer_radius, inner_radius, a, b, width, height], material)| {
+            SectionFile { s, shape, radius, outer_radius, inner_radius, a, b, width, height, material }
+        })
+}
+
+fn sections() -> impl Strategy<Value = SectionsFile> {
+    prop_oneof![
+        section().prop_map(SectionsFile::One),
+        prop::collection::vec(section(), 0..3).prop_map(SectionsFile::Stations)
+    ]
+}
+
+fn stiffness() -> impl Strategy<Value = StiffnessFile> {
+    let pair = || prop::option::of([positive(), positive()]);
+    let matrix = prop::collection::vec(number(), 36)
+        .prop_map(|flat| std::array::from_fn(|i| std::array::from_fn(|j| flat[6 * i + j])));
+    (pair(), prop::option::of(positive()), prop::option::of(positive()), pair(), prop::option::of(matrix))
+        .prop_map(|(bending, torsion, axial, shear, matrix)| StiffnessFile {
+            bending,
+            torsion,
+            axial,
+            shear,
+            matrix,
+        })
+}
+
+fn rest() -> impl Strategy<Value = RestFile> {
+    let sample = (number(), vector()).prop_map(|(s, curvature)| RestSample { s, curvature });
+    let helix = (number(), number()).prop_map(|(radius, pitch)| HelixFile { radius, pitch });
+    (
+        prop::option::of(vector()),
+        prop::option::of(prop::collection::vec(sample, 0..3)),
+        prop::option::of(helix),
+        prop::option::of(prop::collection::vec(vector(), 0..3)),
+        prop::option::of(word()),
+    )
+        .prop_map(|(curvature, samples, helix, points, csv)| RestFile {
+            curvature,
+            samples,
+            helix,
+            points,
+            csv,
+        })
+}
+
+fn support() -> impl Strategy<Value = SupportFile> {
+    use FixName::*;
+    let fix = prop::sample::subsequence(vec![X, Y, Z, Position, Orientation, Tangent, Twist], 0..4);
+    let quaternion = [number(), number(), number(), number()];
+    (place(), fix, prop::option::of(vector()), prop::option::of(quaternion))
+        .prop_map(|(at, fix, position, orientation)| SupportFile { at, fix, position, orientation })
+}
+
+fn load() -> impl Strategy<Value = LoadFile> {
+    let place = || prop::option::of(place());
+    let vector = || prop::option::of(vector());
+    let frame = prop::option::of(prop::sample::select(vec![FrameName::World, FrameName::Body]));
+    (place(), place(), place(), [vector(), vector(), vector(), vector()], frame).prop_map(
+        |(at, from, to, [force, moment, force_per_length, moment_per_length], frame)| LoadFile {
+            at,
+            from,
+            to,
+            force,
+            moment,
+            force_per_length,
+            moment_per_length,
+            frame,
+        },
+    )
+}
+
+fn rod() -> impl Strategy<Value = RodFile> {
+    let kinematics = prop::sample::select(vec![KinematicsName::Cosserat, KinematicsName::Kirchhoff]);
+    let mesh = (prop::option::of(0..1000_usize), prop::option::of(positive()));
+    let given = (prop::option::of(stiffness()), prop::option::of(number()), prop::option::of(vector()));
+    let base = (prop::option::of(vector()), prop::option::of([number(), number(), number(), number()]));
+    (
+        (prop::option::of(word()), prop::option::of(positive()), mesh, prop::option::of(sections())),
+        (prop::option::of(kinematics), given, prop::option::of(rest()), base),
+        prop::collection::vec(support(), 0..3),
+        prop::collection::vec(load(), 0..3),
+    )
+        .prop_map(
+            |(
+                (material, length, (elements, tolerance), section),
+                (
+                    kinematics,
+                    (stiffness, mass_per_length, rotational_inertia_per_length),
+                    rest,
+                    (position, orientation),
+                ),
+                supports,
+                loads,
+            )| RodFile {
+                material,
+                length,
+                elements,
+                tolerance,
+                section,
+                kinematics,
+                stiffness,
+                mass_per_length,
+                rotational_inertia_per_length,
+                rest,
+                position,
+                orientation,
+                supports,
+                loads,
+            },
+        )
+}
+
+fn coupling() -> impl Strategy<Value = CouplingFile> {
+    let limit = || prop::option::of(positive());
+    (word(), prop::option::of(place()), positive(), positive(), [limit(), limit(), limit(), limit()])
+        .prop_map(
+            |(
+                rod,
+                at,
+                linear_stiffness,
+                angular_stiffness,
+                [linear_damping, angular_damping, max_force, max_torque],
+            )| {
+                CouplingFile {
+                    hand: HandFile {
+                        rod,
+                        at,
+                        linear_stiffness,
+                        angular_stiffness,
+                        linear_damping,
+                        angular_damping,
+                        max_force,
+                        max_torque,
+                    },
+                }
+            },
+        )
+}
+
+fn solver() -> impl Strategy<Value = SolverFile> {
+    use JacobianName::*;
+    let method = prop::sample::select(vec![MethodName::Auto, MethodName::Sweep, MethodName::Shooting]);
+    let jacobian = vec![Variational, VariationalLanes, FiniteDifferences, FiniteDifferenceLanes];
+    let scheme = prop::sample::select(vec![SchemeName::Element, SchemeName::Multistep]);
+    (
+        prop::option::of(method),
+        prop::option::of(0..9_usize),
+        prop::option::of(positive()),
+        prop::option::of(0..99_usize),
+        prop::option::of(prop::sample::select(jacobian)),
+        prop::option::of(scheme),
+    )
+        .prop_map(|(method, order, tolerance, max_iterations, jacobian, scheme)| SolverFile {
+            method,
+            order,
+            tolerance,
+            max_iterations,
+            jacobian,
+            scheme,
+        })
+}
+
+fn dynamics() -> impl Strategy<Value = DynamicsFile> {
+    use IntegratorName::*;
+    let integrator = prop::sample::select(vec![Bdf2, ImplicitEuler, GeneralizedAlpha, Midpoint]);
+    let number = || prop::option::of(positive());
+    (prop::option::of(integrator), [number(), number(), number(), number()], prop::option::of(word()))
+        .prop_map(|(integrator, [time_step, tolerance, duration, output_rate], start)| DynamicsFile {
+            integrator,
+            time_step,
+            tolerance,
+            duration,
+            output_rate,
+            start,
+        })
+}
+
+fn scene() -> impl Strategy<Value = SceneFile> {
+    (
+        word(),
+        prop::option::of(vector()),
+        prop::collection::vec((word(), material()), 0..3),
+        prop::collection::vec((word(), rod()), 0..3),
+        (prop::option::of(coupling()), prop::option::of(solver()), prop::option::of(dynamics())),
+        prop::option::of(prop::option::of(positive())),
+    )
+        .prop_map(|(name, gravity, materials, rods, (coupling, solver, dynamics), contact)| SceneFile {
+            format: 1,
+            name,
+            gravity,
+            materials: IndexMap::from_iter(materials),
+            rods: IndexMap::from_iter(rods),
+            coupling,
+            contact: contact.map(|friction| ContactFile { friction }),
+            solver,
+            dynamics,
+        })
+}
+
+proptest! {
+    #![proptest_config(ProptestConfig { cases: 200, failure_persistence: None, ..ProptestConfig::default() })]
+
+    #[test]
+    fn a_scene_written_as_toml_or_json_reads_back_as_the_same_scene(scene in scene()) {
+        prop_assert_eq!(&SceneFile::parse(&scene.to_toml(), "scene.toml").unwrap(), &scene);
+        prop_assert_eq!(&SceneFile::parse(&scene.to_json(), "scene.json").unwrap(), &scene);
+    }
+
+    #[test]
+    fn any_text_is_a_scene_or_an_error_but_never_a_panic(text in ".{0,200}") {
+        for name in ["scene.toml", "scene.json"] {
+            if let Err(error) = Scene::parse(&text, name, None) {
+                prop_assert!(!error.render(true).is_empty());
+                prop_assert!(error.line() > 0);
+            }
+        }
+    }
+}
+
+#[test]
+fn the_schema_is_what_it_was() {
+    assert!(!schema().to_string().contains("\"null\""));
+    insta::assert_json_snapshot!(schema());
+}
+
+#[test]
+fn every_key_of_every_bundled_scene_survives_both_forms() {
+    for scene in bundled() {
+        let read = Scene::parse(scene.text, scene.name, None).unwrap().file;
+        assert_eq!(Scene::parse(&read.to_toml(), "scene.toml", None).unwrap().file, read);
+        assert_eq!(Scene::parse(&read.to_json(), "scene.json", None).unwrap().file, read);
+    }
+}
