@@ -97,7 +97,7 @@ pub(super) fn solver(document: &Document, file: &SceneFile) -> Result<Settings, 
         }),
         tolerance: tolerance.unwrap_or(default.tolerance),
         max_iterations: max_iterations.unwrap_or(default.max_iterations),
-        max_halvings: default.max_halvings,
+        ..default
     })
 }
 
