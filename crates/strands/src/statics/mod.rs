@@ -107,7 +107,7 @@ fn find(
             return search;
         }
         let search = path::from_solution(problem, guess, settings, workspace, report);
-        if search.outcome == Outcome::Converged {
+        if search.outcome == Outcome::Converged || !settings.restart_from_rest {
             return search;
         }
     }

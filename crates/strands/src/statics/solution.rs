@@ -67,6 +67,8 @@ pub struct Settings {
     pub max_iterations: usize,
     /// How many times a failed search may halve its step on the way from the last solution, or from rest.
     pub max_halvings: usize,
+    /// Whether a search that fails from a guess starts again from rest. An interactive loop says no: it keeps its time, and the shape it has.
+    pub restart_from_rest: bool,
 }
 
 impl Default for Settings {
@@ -78,6 +80,7 @@ impl Default for Settings {
             tolerance: 1e-9,
             max_iterations: 40,
             max_halvings: 12,
+            restart_from_rest: true,
         }
     }
 }
