@@ -15,12 +15,16 @@ use super::shooting::{Outcome, Search, Workspace, shoot};
 use super::solution::{Guess, Scheme, Settings, SolveReport};
 use super::stability::morse_index;
 use crate::load::NodalLoads;
-use crate::math::{Pose, Quat, Vec3, Wrench};
+use crate::math::{Mat3, Pose, Quat, Vec3, Wrench};
 
 /// The first step of a way.
 const FIRST_STEP: f64 = 0.25;
 /// Iterations that a search on the way may take before the step counts as too long.
 const ITERATIONS_ON_THE_WAY: usize = 12;
+/// How far, in rad, one step may turn any part of the rod: more is a jump to another branch.
+const LARGEST_TURN_OF_A_STEP: f64 = 1.0;
+/// How many nodes are watched for that.
+const SAMPLES: usize = 9;
 /// The force across the rod, all along it together, over `EI/L²`: enough to bend a free rod by about a fifth of its length.
 const NUDGE: f64 = 2.0;
 
@@ -126,6 +130,7 @@ fn walk(
     let smallest = 0.5_f64.powi(i32::try_from(settings.max_halvings).unwrap_or(i32::MAX)) * FIRST_STEP;
     let mut reached = search.state;
     let mut index = morse_index(&family, &reached, workspace);
+    let mut shape = sampled(workspace);
     while search.outcome == Outcome::Converged && at < 1.0 {
         let next = f64::min(at + step, 1.0);
         set(&mut family, problem, from, change, next);
@@ -135,10 +140,11 @@ fn walk(
         if tried.outcome == Outcome::Converged {
             // A step that lost stability has landed on another branch, or passed a place where the rod would snap.
             let now = morse_index(&family, &tried.state, workspace);
-            if now > index.max(Some(0)) {
+            let frames = sampled(workspace);
+            if now > index.max(Some(0)) || largest_turn(&shape, &frames) > LARGEST_TURN_OF_A_STEP {
                 tried.outcome = Outcome::Stalled;
             } else {
-                index = now;
+                (index, shape) = (now, frames);
             }
         }
         if tried.outcome == Outcome::Converged {
@@ -153,6 +159,17 @@ fn walk(
         }
     }
     search
+}
+
+/// The orientations of some nodes along the rod, by which a jump to another branch is seen.
+fn sampled(workspace: &Workspace) -> [Mat3; SAMPLES] {
+    let poses = workspace.poses();
+    core::array::from_fn(|i| poses[i * (poses.len() - 1) / (SAMPLES - 1)].rotation)
+}
+
+fn largest_turn(before: &[Mat3; SAMPLES], after: &[Mat3; SAMPLES]) -> f64 {
+    let turn = |(a, b): (&Mat3, &Mat3)| Quat::from_matrix(a.transpose() * *b).to_rotation_vector().norm();
+    before.iter().zip(after).map(turn).fold(0.0, f64::max)
 }
 
 /// Sets the family to a place on the way. Places move on a straight line, which stays within the rod's reach.

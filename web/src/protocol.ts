@@ -1,0 +1,55 @@
+/** What the page and the solver's worker say to each other. */
+
+/** How a solve went, as the solver reports it. Reactions are in world axes, N and N·m. */
+export interface Report {
+  status: 'converged' | 'failed'
+  reason: string | null
+  method: string
+  iterations: number
+  /** Null where it is not finite. */
+  residual: number | null
+  path_steps: number
+  morse_index: number | null
+  elements: number
+  energy: number
+  saturated: boolean
+  start: Reaction
+  end: Reaction
+}
+
+export interface Reaction {
+  force: [number, number, number]
+  moment: [number, number, number]
+}
+
+/** The shape after a solve: twelve numbers a node (d1, d2, d3, position), six an element, two half extents a node. */
+export interface Shape {
+  frames: Float64Array
+  otherFrames: Float64Array
+  strain: Float64Array
+  stress: Float64Array
+  halfExtent: Float64Array
+  hand: Float64Array
+  report: Report
+  /** Time of the solve, ms. */
+  milliseconds: number
+}
+
+/** Position and quaternion `[x, y, z, qw, qx, qy, qz]`. */
+export type HandPose = Float64Array | number[]
+
+export type Request =
+  | { kind: 'bundled' }
+  | { kind: 'open'; text: string; name: string }
+  | { kind: 'replace'; text: string }
+  | { kind: 'hand'; pose: HandPose }
+  | { kind: 'mode'; mode: string }
+  | { kind: 'coupling'; values: number[] }
+  | { kind: 'toml' | 'csv' | 'glb' }
+
+export type Reply =
+  | { kind: 'bundled'; scenes: { name: string; title: string; text: string }[] }
+  | { kind: 'opened'; scene: string; coupling: number[]; shape: Shape }
+  | { kind: 'shape'; shape: Shape; scene: string | null }
+  | { kind: 'error'; message: string }
+  | { kind: 'file'; name: string; data: string | Uint8Array }
