@@ -1,1 +1,43 @@
-//! Named problems with reference answers.
+//! Named problems with reference answers, each once: used by tests, benches and the command line.
+//!
+//! A [`Case`] is a problem as it was published, with its source, its tolerance and its rows; each [`Row`] builds the
+//! [`Problem`](strands::statics::Problem) at any number of elements and order, and compares a solution with what is known of it:
+//!
+//! ```
+//! use strands::rod::Order;
+//! use strands::statics::Settings;
+//!
+//! let case = strands_cases::find("cantilever-end-moment").expect("a case of that name");
+//! for outcome in case.solve(case.elements, Order::Fourth, &Settings::default()) {
+//!     assert!(outcome?.worst() < case.tolerance);
+//! }
+//! # Ok::<(), strands_cases::CaseError>(())
+//! ```
+//!
+//! Planar cases lie in the plane of x and y with the base at the origin and its tangent along x. A problem with a prescribed tip pose has many
+//! equilibria, and a solver may return any of them; [`Answer::index`] says how stable each is.
+//!
+//! [`workloads`] are long runs of problems, each next to the one before, as an interactive program has them.
+
+mod case;
+mod expected;
+mod planar;
+mod pose;
+mod spatial;
+mod spring;
+mod table;
+mod tip_wrench;
+pub mod workloads;
+
+pub use case::{Answer, Case, CaseError, Outcome, Row, Setup, Start, Tip};
+pub use expected::{Comparison, Expected, Quantity, Value};
+
+/// Every case.
+pub fn all() -> Vec<Case> {
+    [planar::cases(), spatial::cases(), spring::cases(), tip_wrench::cases(), pose::cases()].concat()
+}
+
+/// The case of that name.
+pub fn find(name: &str) -> Option<Case> {
+    all().into_iter().find(|case| case.name == name)
+}

@@ -1,0 +1,232 @@
+//! A named problem: rows of one kind, each a rod with what acts on it and its reference answers.
+
+use crate::{Comparison, Expected};
+use strands::load::{DistributedLoad, Frame, NodalLoads, PointLoad};
+use strands::math::{Pose, Vec3, Wrench};
+use strands::rod::{Order, Rod, RodDescription, RodError};
+use strands::statics::{End, Guess, Problem, Settings, Solution, SolveFailure, Workspace, solve};
+use thiserror::Error;
+
+/// A named problem with reference answers.
+#[derive(Clone, Debug)]
+pub struct Case {
+    /// Its name, as one types it.
+    pub name: String,
+    /// What it is, in a line.
+    pub title: String,
+    /// Who published it, and how the figures were found.
+    pub source: &'static str,
+    /// The relative error within which a converged solution matches.
+    pub tolerance: f64,
+    /// How many elements of order 4 reach the tolerance on every row.
+    pub elements: usize,
+    /// Its rows.
+    pub rows: Vec<Row>,
+    /// What was published but is too coarse to compare with.
+    pub remark: Option<&'static str>,
+}
+
+/// One problem of a case.
+#[derive(Clone, Debug)]
+pub struct Row {
+    /// What sets it apart from the other rows.
+    pub label: String,
+    /// The rod and what acts on it.
+    pub setup: Setup,
+    /// Where a solver starts.
+    pub start: Start,
+    /// The equilibria that are known; a solution may be any of them.
+    pub answers: Vec<Answer>,
+}
+
+/// A rod clamped at its base.
+#[derive(Clone, Debug)]
+pub struct Setup {
+    /// The rod.
+    pub description: RodDescription,
+    /// Dead force per length all along it, N/m, world axes.
+    pub force_per_length: Vec3,
+    /// What is given at its tip.
+    pub tip: Tip,
+}
+
+/// What is given at the tip.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum Tip {
+    /// A force and a moment.
+    Wrench {
+        /// Moment (N·m) and force (N).
+        wrench: Wrench,
+        /// Dead or following.
+        frame: Frame,
+    },
+    /// The place and orientation.
+    Pose(Pose),
+}
+
+/// Where a solver starts.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Start {
+    /// From rest.
+    Cold,
+    /// From the solution of the row before, which lies on the same path of loads.
+    PreviousRow,
+}
+
+/// A known equilibrium.
+#[derive(Clone, Debug)]
+pub struct Answer {
+    /// What is known of it.
+    pub expected: Vec<Expected>,
+    /// How many ways there are to lower the energy from it; zero where it is stable.
+    pub index: Option<usize>,
+}
+
+/// A row, solved and compared.
+#[derive(Clone, Debug)]
+pub struct Outcome {
+    /// The problem.
+    pub problem: Problem,
+    /// Its solution.
+    pub solution: Solution,
+    /// The nearest of the row's answers.
+    pub answer: usize,
+    /// Each of that answer's quantities.
+    pub comparisons: Vec<Comparison>,
+}
+
+/// Why a row has no outcome.
+#[derive(Clone, Debug, Error)]
+pub enum CaseError {
+    /// The rod cannot be cut into so few elements.
+    #[error(transparent)]
+    Rod(#[from] RodError),
+    /// The solver found no equilibrium.
+    #[error(transparent)]
+    Solve(#[from] SolveFailure),
+}
+
+impl Case {
+    /// Solves every row, in order.
+    pub fn solve(
+        &self,
+        elements: usize,
+        order: Order,
+        settings: &Settings,
+    ) -> Vec<Result<Outcome, CaseError>> {
+        let mut workspace = Workspace::default();
+        let mut previous: Option<Guess> = None;
+        let mut outcomes = Vec::with_capacity(self.rows.len());
+        for row in &self.rows {
+            let guess = match row.start {
+                Start::Cold => None,
+                Start::PreviousRow => previous.as_ref(),
+            };
+            let outcome = row.solve(elements, order, settings, guess, &mut workspace);
+            previous = outcome.as_ref().ok().map(|outcome| outcome.solution.guess);
+            outcomes.push(outcome);
+        }
+        outcomes
+    }
+}
+
+impl Row {
+    /// The problem, its mesh with nodes wherever an answer is taken.
+    ///
+    /// # Errors
+    /// Where there are fewer elements than stretches between those places.
+    pub fn problem(&self, elements: usize, order: Order) -> Result<Problem, RodError> {
+        let places = self.answers.iter().flat_map(|answer| &answer.expected).filter_map(Expected::place);
+        self.setup.problem(elements, order, &places.collect::<Vec<_>>())
+    }
+
+    /// Solves it and compares the solution with the nearest of the answers.
+    ///
+    /// # Errors
+    /// As [`Row::problem`], and where the solver finds no equilibrium.
+    pub fn solve(
+        &self,
+        elements: usize,
+        order: Order,
+        settings: &Settings,
+        guess: Option<&Guess>,
+        workspace: &mut Workspace,
+    ) -> Result<Outcome, CaseError> {
+        let problem = self.problem(elements, order)?;
+        let solution = solve(&problem, settings, guess, workspace)?;
+        let (answer, comparisons) = self.compare(&problem, &solution);
+        Ok(Outcome { problem, solution, answer, comparisons })
+    }
+
+    /// The nearest of the answers, and each of its quantities beside the solution's.
+    ///
+    /// # Panics
+    /// Where the problem is not of [`Row::problem`].
+    pub fn compare(&self, problem: &Problem, solution: &Solution) -> (usize, Vec<Comparison>) {
+        let all = self.answers.iter().map(|answer| {
+            answer.expected.iter().map(|expected| expected.compare(problem, solution)).collect::<Vec<_>>()
+        });
+        all.enumerate()
+            .min_by(|(_, a), (_, b)| worst(a).total_cmp(&worst(b)))
+            .unwrap_or_else(|| unreachable!("every row has an answer"))
+    }
+}
+
+impl Setup {
+    /// The problem on a mesh with nodes at `places`.
+    ///
+    /// # Errors
+    /// Where there are fewer elements than stretches between the places.
+    pub fn problem(&self, elements: usize, order: Order, places: &[f64]) -> Result<Problem, RodError> {
+        let rod = Rod::with_elements(self.description.clone(), elements, places, order)?;
+        let weight = self.weight(&rod)?;
+        let mut problem = Problem::cantilever(rod);
+        set_tip(&mut problem, weight, self.tip)?;
+        Ok(problem)
+    }
+
+    /// The dead force all along a rod of this description.
+    pub(crate) fn weight(&self, rod: &Rod) -> Result<NodalLoads, RodError> {
+        let weight = DistributedLoad {
+            from: 0.0,
+            to: rod.length(),
+            per_length: Wrench::new(Vec3::ZERO, self.force_per_length),
+            frame: Frame::World,
+        };
+        NodalLoads::none(rod).with_distributed(rod, &weight)
+    }
+}
+
+/// Gives a problem what is given at its tip, beside its weight.
+pub(crate) fn set_tip(problem: &mut Problem, weight: NodalLoads, tip: Tip) -> Result<(), RodError> {
+    problem.loads = match tip {
+        Tip::Pose(pose) => {
+            problem.end = End::clamped(pose);
+            weight
+        }
+        Tip::Wrench { wrench, frame } => {
+            let load = PointLoad { at: problem.rod.length(), wrench, frame };
+            weight.with_point(&problem.rod, &load)?
+        }
+    };
+    Ok(())
+}
+
+impl Answer {
+    /// An equilibrium of which the stability is not known.
+    pub fn new(expected: Vec<Expected>) -> Self {
+        Self { expected, index: None }
+    }
+}
+
+impl Outcome {
+    /// The largest of the relative errors.
+    pub fn worst(&self) -> f64 {
+        worst(&self.comparisons)
+    }
+}
+
+fn worst(comparisons: &[Comparison]) -> f64 {
+    // An error that is not a number is the worst of all.
+    comparisons.iter().map(|comparison| comparison.error).max_by(f64::total_cmp).unwrap_or(0.0)
+}
