@@ -99,6 +99,8 @@ async function open(text: string, name: string): Promise<void> {
     })
     const held = firstRod(scene).supports?.some((s: SceneJson) => s.at === 'end' && s.fix.includes('position'))
     inputs.get('mode')!.value = held ? 'pose' : 'scene'
+    // The first solve starts from rest, and says nothing of the frames to come.
+    times.length = 0
   }
 }
 
@@ -281,6 +283,7 @@ async function first(scenes: { name: string; text: string }[]): Promise<[string,
 
 async function start(): Promise<void> {
   buildInspector()
+  if (innerWidth <= 720) document.querySelectorAll('details').forEach((group) => (group.open = false))
   listen()
   setTheme(matchMedia('(prefers-color-scheme: dark)').matches)
   const reply = await solver.ask({ kind: 'bundled' })
