@@ -8,9 +8,9 @@ fn main() -> io::Result<()> {
     println!("cargo::rerun-if-changed=build.rs");
     let variable = |name| std::env::var_os(name).map(PathBuf::from).ok_or_else(|| io::Error::other(name));
     let page = variable("CARGO_MANIFEST_DIR")?.join("../../web/dist");
+    println!("cargo::rerun-if-changed={}", page.display());
     let mut files = Vec::new();
     if page.join("index.html").exists() {
-        println!("cargo::rerun-if-changed={}", page.display());
         collect(&page.canonicalize()?, &mut files)?;
     }
     let base = page.canonicalize().unwrap_or(page);
