@@ -7,29 +7,31 @@ use std::hint::black_box;
 use std::time::Instant;
 
 use serde::Serialize;
-use strands::math::SimdLevel;
+use strands::math::{Pose, SimdLevel, Wrench};
 use strands::rod::{Order, RodError};
 use strands::statics::{
-    Guess, Jacobian, Problem, Scheme, Settings, Solution, SolveFailure, Workspace, solve,
+    Guess, Jacobian, Problem, Scheme, Settings, Solution, SolveFailure, SolveReport, Workspace, follow, solve,
 };
 
 /// What `--help` says about the figures.
 pub const NAMES: &str = "\
-Figures (all of a steel wire 0.5 m long, 2 mm thick, one thread):
+Figures (of a steel wire 0.5 m long, 2 mm thick, where no other is named; one thread):
   simd_width                       numbers of 64 bits in one vector instruction
   sweep.order1 .order2 .order4 .multistep
-                                   two-sweep solve of 100 elements, with its energy and
-                                   stresses, µs; with .element, ns an element
+                                   one sweep of 100 elements, µs; with .element, ns an element
   warm.median warm.p999            both ends held, 100 elements, under gravity, residual
-                                   1e-10: solve after the hand moved by 0.3 % of the length
+                                   1e-10: search after the hand moved by 0.3 % of the length
                                    and 1°, from the last solution, µs
   warm.iterations                  mean Newton iterations of those
   jacobian.variational_lanes .variational .finite_differences .finite_difference_lanes
                                    one Jacobian, over one sweep of the same rod, from times of
                                    whole solves; by finite differences it is six sweeps, which
                                    sets the scale
-  cost.50 … cost.5000              two-sweep solve of that many elements, ns an element
+  cost.50 … cost.5000              one sweep of that many elements, ns an element
   cost.worst_over_best             the largest of those over the smallest
+  suture-pose steel-pose steel-wrench
+                                   with .median and .worst: 300 frames of a moving end, 100
+                                   elements, residual 1e-10, each from the one before, µs
 
 Times are medians of batches that take turns.";
 
@@ -53,6 +55,9 @@ pub enum BenchError {
     /// A problem could not be solved.
     #[error(transparent)]
     Solve(#[from] Box<SolveFailure>),
+    /// A workload could not be run.
+    #[error(transparent)]
+    Workload(#[from] strands_cases::CaseError),
 }
 
 /// Measures everything.
@@ -62,6 +67,7 @@ pub fn measure() -> Result<Vec<Figure>, BenchError> {
     figures.extend(warm()?);
     figures.extend(jacobians()?);
     figures.extend(cost()?);
+    figures.extend(workloads()?);
     Ok(figures)
 }
 
@@ -79,7 +85,35 @@ fn figure(name: impl Into<String>, value: f64, unit: &'static str) -> Figure {
     Figure { name: name.into(), value, unit }
 }
 
-/// The two-sweep solve by each scheme.
+/// The named workloads: each frame's search from the frame before, 100 elements.
+fn workloads() -> Result<Vec<Figure>, BenchError> {
+    let settings = Settings { tolerance: 1e-10, ..Settings::default() };
+    let mut figures = Vec::new();
+    for workload in strands_cases::workloads::all() {
+        let (mut times, mut report) = (Vec::new(), SolveReport::default());
+        let run = workload.run_with(100, Order::Second, &settings, |_, problem, guess, workspace| {
+            let mut next = *guess;
+            let start = Instant::now();
+            black_box(follow(problem, &settings, &mut next, workspace, &mut report));
+            times.push(start.elapsed().as_secs_f64());
+            solve(problem, &settings, Some(&next), workspace)
+        });
+        run?;
+        figures.push(figure(
+            format!("{}.median", workload.name),
+            clock::quantile(&mut times, 0.5) * 1e6,
+            "µs",
+        ));
+        figures.push(figure(
+            format!("{}.worst", workload.name),
+            clock::quantile(&mut times, 1.0) * 1e6,
+            "µs",
+        ));
+    }
+    Ok(figures)
+}
+
+/// One sweep by each scheme.
 fn sweeps() -> Result<Vec<Figure>, BenchError> {
     const ELEMENTS: usize = 100;
     let schemes = [
@@ -110,15 +144,17 @@ fn warm() -> Result<Vec<Figure>, BenchError> {
     let mut workspace = Workspace::default();
     let mut problem = problems::held(100, problems::home())?;
     let mut guess = solved(&problem, &settings, None, &mut workspace)?.guess;
+    let mut report = SolveReport::default();
     let (mut times, mut iterations) = (Vec::with_capacity(STEPS), 0);
     for place in problems::wander(STEPS) {
         problem.end.pose = place;
         let start = Instant::now();
-        let solution = black_box(solve(&problem, &settings, Some(&guess), &mut workspace));
+        let converged = black_box(follow(&problem, &settings, &mut guess, &mut workspace, &mut report));
         times.push(start.elapsed().as_secs_f64());
-        let solution = solution.map_err(Box::new)?;
-        iterations += solution.report.iterations;
-        guess = solution.guess;
+        if !converged {
+            guess = solved(&problem, &settings, Some(&guess), &mut workspace)?.guess;
+        }
+        iterations += report.iterations;
     }
     Ok(vec![
         figure("warm.median", clock::quantile(&mut times, 0.5) * 1e6, "µs"),
@@ -186,7 +222,7 @@ fn solved(
     solve(problem, settings, guess, workspace).map_err(|failure| BenchError::Solve(Box::new(failure)))
 }
 
-/// A run that solves a problem again and again, after it was seen to be solved.
+/// A run that searches again and again: from a guess, or, without one, a single sweep from any end.
 fn repeated(
     problem: Problem,
     settings: Settings,
@@ -194,8 +230,12 @@ fn repeated(
 ) -> Result<Box<dyn FnMut()>, BenchError> {
     let mut workspace = Workspace::default();
     solved(&problem, &settings, guess.as_ref(), &mut workspace)?;
+    let once = Settings { max_iterations: 0, ..settings };
+    let settings = if guess.is_some() { settings } else { once };
+    let start = guess.unwrap_or(Guess { pose: Pose::IDENTITY, wrench: Wrench::ZERO });
+    let mut report = SolveReport::default();
     Ok(Box::new(move || {
-        let solution = solve(black_box(&problem), &settings, guess.as_ref(), &mut workspace);
-        let _ = black_box(solution);
+        let mut guess = start;
+        black_box(follow(black_box(&problem), &settings, &mut guess, &mut workspace, &mut report));
     }))
 }
