@@ -1,7 +1,7 @@
 //! Scene files: what users write, as a model to solve, and the writers of what comes out.
 //!
 //! A scene goes text → [`SceneFile`] (as written) → [`Model`] (checked, SI, ready to solve). Everything that is wrong on the way is a
-//! [`SceneError`] that points at the line and says how to mend it. Solutions leave through [`write`].
+//! [`SceneError`] that points at the line and says how to mend it. Solutions leave through [`mod@write`].
 //!
 //! ```
 //! use strands::statics::{Workspace, solve};
