@@ -1,167 +1,141 @@
 //! The hot path: elements of a diagonal law, for one rod or several side by side.
 //!
-//! A [`LocalSolver`] is stepped along the rod from its end. Most elements take one evaluation of their local equation: what the last
-//! elements needed beyond `ε̂ + S w` changes slowly along the rod, even across loads, and extrapolates to within round-off of the
-//! solution; one quasi-Newton step does the rest.
+//! Everything is written for the exponent of an element, `x = h ε`, and for the mean `σ̄` of the wrench that it carries, which is the
+//! unknown: `σ̄ = T(x)ᵀ w` with `x = h ε̂ + h S σ̄`. A strain that is not free has no compliance and needs no code of its own.
+//!
+//! A [`LocalSolver`] is stepped along the rod from its end. Most elements take one evaluation of this equation: `σ̄ − w` changes slowly
+//! along the rod, and extrapolates to within a small step of the solution; one quasi-Newton step does the rest.
 
-use super::{GAUSS_OFFSET, MAX_LOCAL_ITERATIONS, PointStrains, exponent, gauss_stresses, mean_wrench};
+use super::{Carried, GAUSS_OFFSET, MAX_LOCAL_ITERATIONS, exponent, gauss_stresses};
 use crate::math::{
-    ExpCoefficients, Mat3, Mat6, Pose, Real, Strain, Vec3, Vec6, Wrench, exp_coefficients,
-    exp_coefficients_second, exp_rotation,
+    ExpCoefficients, Mat3, Mat6, Pose, Real, Vec3, Vec6, Vector, Wrench, exp_coefficients,
+    exp_coefficients_second,
 };
-use crate::rod::Order;
+use crate::rod::{Kinematics, Law, Order, Point};
 
-/// How far, in rad or as a part, the strain over an element may be from the solution of its local equation.
+/// How far, in rad or as a part, the exponent of an element may be from the solution of its local equation.
 const LOCAL_TOLERANCE: f64 = 1e-14;
 /// A last step larger than this would spoil the first-order update of the coefficients.
 const LARGEST_LAST_STEP: f64 = 1e-8;
 /// Steps by the truncated series before the matrix is inverted.
 const SERIES_STEPS: usize = 4;
 
-/// The compliance and rest strain at one point of an element with a diagonal law. A strain that is not free has compliance zero.
+/// One point of an element with a diagonal law, over the element's length. A strain that is not free has no compliance.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct DiagonalPoint {
+    /// `h S`.
     pub compliance: Vec6,
-    pub rest: Strain,
+    /// `h ε̂`.
+    pub rest: Vec6,
+}
+
+impl DiagonalPoint {
+    /// From a point of an element of length `h`; `None` where its law is not diagonal.
+    pub fn new(kinematics: Kinematics, h: f64, point: &Point) -> Option<Self> {
+        let Law::Diagonal(stiffness) = &point.law else {
+            return None;
+        };
+        let c = stiffness.to_diagonal();
+        let over = |v: Vec3| Vec3::new(h / v.x, h / v.y, h / v.z);
+        let linear = match kinematics {
+            Kinematics::Cosserat => over(c.linear),
+            Kinematics::Kirchhoff => Vec3::ZERO,
+        };
+        Some(Self { compliance: Vec6::new(over(c.angular), linear), rest: point.rest * h })
+    }
+
+    #[inline(always)]
+    fn exponent<V: Vector>(&self, stress: Wrench<V>) -> Vec6<V> {
+        self.rest.splat::<V>() + self.compliance.splat::<V>().scale(stress)
+    }
 }
 
 /// An element, solved.
-pub(crate) struct Solved<R> {
-    /// The strain at its first point.
-    pub strain: Strain<R>,
-    /// The strain at its second point; the same as the first where there is but one.
-    pub second: Strain<R>,
-    /// The frame of its far node from its near node.
-    pub relative: Pose<R>,
+pub(crate) struct Solved<V: Vector> {
+    /// Its length times the strain at its points; where there is but one point, twice the same.
+    pub points: [Vec6<V>; 2],
+    /// Its exponent.
+    pub exponent: Vec6<V>,
+    /// `θ²` of the exponent.
+    pub t: V::Number,
+    /// The coefficients of the exponential there.
+    pub coefficients: ExpCoefficients<V::Number>,
+    /// The mean of the wrench that it carries.
+    pub mean: Wrench<V>,
+}
+
+impl<V: Vector> Solved<V> {
+    #[inline(always)]
+    fn at(points: [Vec6<V>; 2], exponent: Vec6<V>, wrench: &Wrench<V>) -> Self {
+        let carried = Carried::new(&exponent, wrench);
+        Self { points, exponent, t: carried.t, coefficients: carried.coefficients, mean: carried.mean }
+    }
+
+    /// The wrench through the near node, in its frame. Along the element `dw/ds = −ad*(ε) w`, so over it `w_a − w_b = ad*(x) σ̄`.
+    #[inline(always)]
+    pub fn carry(&self, wrench: &Wrench<V>) -> Wrench<V> {
+        *wrench + self.exponent.coadjoint(self.mean)
+    }
+
+    #[inline(always)]
+    fn not_converged() -> Self {
+        let (nan, t) = (Vec6::from([f64::NAN; 6]).splat(), V::Number::splat(f64::NAN));
+        let coefficients = ExpCoefficients { b: t, c: t, db: t, dc: t };
+        Self { points: [nan; 2], exponent: nan, t, coefficients, mean: nan }
+    }
 }
 
 /// Finds the elements' strains one after the other, from the rod's end to its start.
-pub(crate) trait LocalSolver<R: Real> {
+pub(crate) trait LocalSolver<V: Vector> {
     /// How many points an element has.
     const POINTS: usize;
     /// At the rod's end.
     fn new() -> Self;
-    /// The next element, from its length, its points, and the wrench through its far node. Lanes that do not converge come back as NaN.
-    fn next(&mut self, h: f64, points: &[DiagonalPoint], wrench: Wrench<R>) -> Solved<R>;
-}
-
-/// The linear part of an element's exponent: any, or straight ahead.
-pub(crate) trait Shift<R: Real>: Copy {
-    /// Whether it is free.
-    const FREE: bool;
-    /// From the linear strain and the element's length.
-    fn new(linear: Vec3<R>, h: R) -> Self;
-    /// `to + v × n`.
-    fn add_cross(self, n: Vec3<R>, to: Vec3<R>) -> Vec3<R>;
-    /// `v · u`.
-    fn dot(self, u: Vec3<R>) -> R;
-    /// `v + b u×v + c u×(u×v)`, with `t = u·u`.
-    fn carried(self, u: Vec3<R>, t: R, b: R, c: R) -> Vec3<R>;
-}
-
-impl<R: Real> Shift<R> for Vec3<R> {
-    const FREE: bool = true;
-    #[inline(always)]
-    fn new(linear: Vec3<R>, h: R) -> Self {
-        linear * h
-    }
-    #[inline(always)]
-    fn add_cross(self, n: Vec3<R>, to: Vec3<R>) -> Vec3<R> {
-        to + self.cross(n)
-    }
-    #[inline(always)]
-    fn dot(self, u: Vec3<R>) -> R {
-        Vec3::dot(self, u)
-    }
-    #[inline(always)]
-    fn carried(self, u: Vec3<R>, t: R, b: R, c: R) -> Vec3<R> {
-        let along = Vec3::dot(self, u);
-        self * (R::one() - t * c) + u.cross(self) * b + u * (along * c)
-    }
-}
-
-/// Straight ahead by a length: the exponent of an inextensible, unshearable rod.
-#[derive(Clone, Copy)]
-pub(crate) struct Straight<R>(R);
-
-impl<R: Real> Shift<R> for Straight<R> {
-    const FREE: bool = false;
-    #[inline(always)]
-    fn new(_: Vec3<R>, h: R) -> Self {
-        Self(h)
-    }
-    #[inline(always)]
-    fn add_cross(self, n: Vec3<R>, to: Vec3<R>) -> Vec3<R> {
-        Vec3::new(to.x - self.0 * n.y, to.y + self.0 * n.x, to.z)
-    }
-    #[inline(always)]
-    fn dot(self, u: Vec3<R>) -> R {
-        self.0 * u.z
-    }
-    #[inline(always)]
-    fn carried(self, u: Vec3<R>, t: R, b: R, c: R) -> Vec3<R> {
-        let (bh, ch) = (b * self.0, c * self.0);
-        let turned = u.z * ch;
-        Vec3::new(bh * u.y + turned * u.x, turned * u.y - bh * u.x, self.0 - ch * t + turned * u.z)
-    }
+    /// The next element, from its points, its length, and the wrench through its far node. Where it does not converge all is NaN.
+    fn next(&mut self, points: &[DiagonalPoint], h: f64, wrench: &Wrench<V>) -> Solved<V>;
 }
 
 /// Order 1: `ε = ε̂ + S w`.
 pub(crate) struct First;
 
-impl<R: Real> LocalSolver<R> for First {
+impl<V: Vector> LocalSolver<V> for First {
     const POINTS: usize = 1;
     #[inline(always)]
     fn new() -> Self {
         Self
     }
     #[inline(always)]
-    fn next(&mut self, h: f64, points: &[DiagonalPoint], wrench: Wrench<R>) -> Solved<R> {
-        let strain = points[0].explicit(wrench);
-        Solved { strain, second: strain, relative: Pose::exp(strain * R::splat(h)) }
-    }
-}
-
-impl DiagonalPoint {
-    #[inline(always)]
-    fn explicit<R: Real>(&self, wrench: Wrench<R>) -> Strain<R> {
-        self.rest.splat::<R>() + self.compliance.splat::<R>().scale(wrench)
+    fn next(&mut self, points: &[DiagonalPoint], _: f64, wrench: &Wrench<V>) -> Solved<V> {
+        let x = points[0].exponent(*wrench);
+        Solved::at([x; 2], x, wrench)
     }
 }
 
 /// Room for the six past elements that the extrapolation looks at: a power of two.
 const ROOM: usize = 8;
 
-/// What the last elements needed beyond `ε̂ + S w`.
-struct History<R> {
-    angular: [Vec3<R>; ROOM],
-    linear: [Vec3<R>; ROOM],
+/// What changed slowly over the last elements.
+struct History<V> {
+    past: [Vec6<V>; ROOM],
     known: usize,
 }
 
-impl<R: Real> History<R> {
+impl<V: Vector> History<V> {
     #[inline(always)]
     fn new() -> Self {
-        Self { angular: [Vec3::zero(); ROOM], linear: [Vec3::zero(); ROOM], known: 0 }
+        Self { past: [Vec6::zero(); ROOM], known: 0 }
     }
 
-    /// The next one. The linear part only where it is free.
+    /// The next one: through the last six, `6a − 15b + 20c − 15d + 6e − f`, or through as many as there are.
     #[inline(always)]
-    fn next<const FREE: bool>(&self) -> Vec6<R> {
-        let linear = if FREE { Self::extrapolate(&self.linear, self.known) } else { Vec3::zero() };
-        Vec6::new(Self::extrapolate(&self.angular, self.known), linear)
-    }
-
-    /// Through the last six, `6a − 15b + 20c − 15d + 6e − f`, or through as many as there are.
-    #[inline(always)]
-    fn extrapolate(past: &[Vec3<R>; ROOM], known: usize) -> Vec3<R> {
-        let ago = |i: usize| past[known.wrapping_sub(1 + i) % ROOM];
-        let k = R::splat;
-        if known >= 6 {
+    fn next(&self) -> Vec6<V> {
+        let ago = |i: usize| self.past[self.known.wrapping_sub(1 + i) % ROOM];
+        let k = V::Number::splat;
+        if self.known >= 6 {
             return (ago(0) + ago(4)) * k(6.0) - (ago(1) + ago(3)) * k(15.0) + ago(2) * k(20.0) - ago(5);
         }
-        match known {
-            0 => Vec3::zero(),
+        match self.known {
+            0 => Vec6::zero(),
             1 => ago(0),
             2 => ago(0) * k(2.0) - ago(1),
             3 => (ago(0) - ago(1)) * k(3.0) + ago(2),
@@ -171,185 +145,110 @@ impl<R: Real> History<R> {
     }
 
     #[inline(always)]
-    fn push<const FREE: bool>(&mut self, correction: Vec6<R>) {
-        self.angular[self.known % ROOM] = correction.angular;
-        if FREE {
-            self.linear[self.known % ROOM] = correction.linear;
-        }
+    fn push(&mut self, new: Vec6<V>) {
+        self.past[self.known % ROOM] = new;
         self.known += 1;
     }
 }
 
-/// Order 2, with the linear strain free or not.
-pub(crate) struct Second<R, V> {
-    history: History<R>,
-    shift: core::marker::PhantomData<V>,
+/// Order 2.
+pub(crate) struct Second<V> {
+    /// `σ̄ − w`.
+    history: History<V>,
 }
 
-impl<R: Real, V: Shift<R>> LocalSolver<R> for Second<R, V> {
+impl<V: Vector> LocalSolver<V> for Second<V> {
     const POINTS: usize = 1;
 
     #[inline(always)]
     fn new() -> Self {
-        Self { history: History::new(), shift: core::marker::PhantomData }
+        Self { history: History::new() }
     }
 
     #[inline(always)]
-    fn next(&mut self, h: f64, points: &[DiagonalPoint], wrench: Wrench<R>) -> Solved<R> {
-        let length = R::splat(h);
-        let compliance = points[0].compliance.splat::<R>();
-        let explicit = points[0].explicit(wrench);
-        // The unknown is what the strain needs beyond the explicit one; for a straight element the linear part of everything is left alone.
-        let mut correction = if V::FREE { self.history.next::<true>() } else { self.history.next::<false>() };
-        let straight = points[0].rest.linear.splat::<R>();
-        let mut strain = corrected::<R, V>(&explicit, &correction, straight);
+    fn next(&mut self, points: &[DiagonalPoint], h: f64, wrench: &Wrench<V>) -> Solved<V> {
+        let point = &points[0];
+        let compliance = point.compliance.splat::<V>();
+        let mut mean = *wrench + self.history.next();
+        let mut x = point.exponent(mean);
         for iteration in 0..MAX_LOCAL_ITERATIONS {
-            let (u, v) = (strain.angular * length, V::new(strain.linear, length));
-            let t = u.dot(u);
-            let k = exp_coefficients(t);
-            let local = Linearisation::new(u, v, &k, wrench);
-            let residual = Vec6::new(
-                compliance.angular.scale(local.moment_change) - correction.angular,
-                if V::FREE {
-                    compliance.linear.scale(local.force_change(&k)) - correction.linear
-                } else {
-                    Vec3::zero()
-                },
-            );
-            let gap = Gap::new::<V>(residual, t, length, compliance, wrench);
-            let near = R::all(gap.closed_by_first_order());
+            let carried = Carried::new(&x, wrench);
+            let residual = carried.mean - mean;
+            let turn = compliance.scale(residual);
+            let gap = Gap::new(&turn, carried.t, h, &compliance, wrench);
+            let near = V::Number::all(gap.closed_by_first_order());
             let step = if near {
-                first_order_step::<R, V>(length, compliance, wrench, residual)
+                residual + turn.coadjoint(*wrench) * V::Number::splat(0.5)
             } else if iteration < SERIES_STEPS {
-                local.series_step::<V>(u, v, length, compliance, wrench, residual)
+                Response::new(&x, wrench, carried.bent).series_step(&compliance, residual, turn)
             } else {
-                LocalNewton::new(h, compliance, strain, wrench).step(residual)
+                let response = Response::new(&x, wrench, carried.bent);
+                let turn = LocalNewton::new(&compliance, &response).step(turn);
+                residual + response.to(turn)
             };
-            correction += step;
-            strain = corrected::<R, V>(&explicit, &correction, straight);
-            if near || R::all(gap.closed_by_second_order()) {
-                if V::FREE {
-                    self.history.push::<true>(correction);
-                } else {
-                    self.history.push::<false>(correction);
-                }
-                let (u, v) = (strain.angular * length, V::new(strain.linear, length));
-                let t_now = u.dot(u);
+            mean += step;
+            x = point.exponent(mean);
+            if near || V::Number::all(gap.closed_by_second_order()) {
+                self.history.push(mean - *wrench);
+                let (k, t) = (carried.coefficients, x.angular.dot(x.angular));
                 // The last step moved t by so little that the coefficients follow to first order.
-                let (b, c) = (k.b + k.db * (t_now - t), k.c + k.dc * (t_now - t));
-                let relative =
-                    Pose { rotation: exp_rotation(u, t_now, b, c), position: v.carried(u, t_now, b, c) };
-                return Solved { strain, second: strain, relative };
+                let change = t - carried.t;
+                let coefficients =
+                    ExpCoefficients { b: k.b + k.db * change, c: k.c + k.dc * change, db: k.db, dc: k.dc };
+                return Solved { points: [x; 2], exponent: x, t, coefficients, mean };
             }
         }
-        not_converged()
+        Solved::not_converged()
     }
 }
 
-/// The explicit strain with its correction, its linear part as it is at rest where that is not free.
-#[inline(always)]
-fn corrected<R: Real, V: Shift<R>>(
-    explicit: &Strain<R>,
-    correction: &Strain<R>,
-    straight: Vec3<R>,
-) -> Strain<R> {
-    let linear = if V::FREE { explicit.linear + correction.linear } else { straight };
-    Vec6::new(explicit.angular + correction.angular, linear)
+/// How `T(x)ᵀ w` answers to the exponent: its derivative up to second order in `x`.
+struct Response<V: Vector> {
+    x: Vec6<V>,
+    wrench: Wrench<V>,
+    /// `m/2 + (u×m + v×n)/6`.
+    turn: V,
+    /// `(u·m + v·n)/6`.
+    trace: V::Number,
 }
 
-fn not_converged<R: Real>() -> Solved<R> {
-    let nan = Vec6::from([f64::NAN; 6]).splat();
-    Solved { strain: nan, second: nan, relative: Pose::exp(nan) }
-}
-
-/// The parts of the local equation that its value and its steps share.
-struct Linearisation<R> {
-    un: Vec3<R>,
-    first: Vec3<R>,
-    uun: Vec3<R>,
-    /// `m̄ − m`.
-    moment_change: Vec3<R>,
-}
-
-impl<R: Real> Linearisation<R> {
+impl<V: Vector> Response<V> {
     #[inline(always)]
-    fn new<V: Shift<R>>(u: Vec3<R>, v: V, k: &ExpCoefficients<R>, w: Wrench<R>) -> Self {
-        let un = u.cross(w.linear);
-        let uun = u.cross(un);
-        let first = v.add_cross(w.linear, u.cross(w.angular));
-        let second = v.add_cross(un, u.cross(first));
-        let twice = v.dot(u) * R::splat(2.0);
-        let moment_change = first * k.b + second * k.c + un * (twice * k.db) + uun * (twice * k.dc);
-        Self { un, first, uun, moment_change }
-    }
-
-    /// `n̄ − n`.
-    #[inline(always)]
-    fn force_change(&self, k: &ExpCoefficients<R>) -> Vec3<R> {
-        self.un * k.b + self.uun * k.c
-    }
-
-    /// `(1 + E + E²) r`, with `E = h S ∂σ̄/∂x` up to second order in the exponent (its square to first order): the inverse of `1 − E` up to
-    /// third order.
-    #[inline(always)]
-    fn series_step<V: Shift<R>>(
-        &self,
-        u: Vec3<R>,
-        v: V,
-        h: R,
-        compliance: Vec6<R>,
-        w: Wrench<R>,
-        r: Vec6<R>,
-    ) -> Vec6<R> {
-        let (half, sixth) = (R::splat(0.5), R::splat(1.0 / 6.0));
-        let (m, n) = (w.angular, w.linear);
-        let (su, sv) = (compliance.angular * h, compliance.linear * h);
-        let turn = m * half + self.first * sixth;
-        // ∂m̄/∂u r ≈ r×(m/2 + (u×m + v×n)/6) + ((u·m + v·n) r − m (u·r) − n (v·r))/6
-        let a = r.angular;
-        let trace = u.dot(m) + v.dot(n);
-        let stretch = (a * trace - m * u.dot(a) - n * v.dot(a)) * sixth;
-        let mut moment = a.cross(turn) + stretch;
-        if V::FREE {
-            moment += r.linear.cross(n) * half;
+    fn new(x: &Vec6<V>, wrench: &Wrench<V>, bent: V) -> Self {
+        let (half, sixth) = (V::Number::splat(0.5), V::Number::splat(1.0 / 6.0));
+        Self {
+            x: *x,
+            wrench: *wrench,
+            turn: wrench.angular * half + bent * sixth,
+            trace: x.dot(*wrench) * sixth,
         }
-        let once =
-            Vec6::new(su.scale(moment), if V::FREE { sv.scale(a.cross(n)) * half } else { Vec3::zero() });
-        let mut moment = once.angular.cross(m) * half;
-        if V::FREE {
-            moment += once.linear.cross(n) * half;
-        }
-        let twice_angular = su.scale(moment);
-        Vec6::new(
-            a + once.angular + twice_angular,
-            if V::FREE {
-                r.linear + once.linear + sv.scale(once.angular.cross(n)) * half
-            } else {
-                Vec3::zero()
-            },
+    }
+
+    /// To a change `d` of the exponent:
+    /// `∂m̄ ≈ d_u × (m/2 + (u×m + v×n)/6) + ((u·m + v·n) d_u − m (u·d_u) − n (v·d_u))/6 + d_v × n/2`, `∂n̄ ≈ d_u × n/2`.
+    #[inline(always)]
+    fn to(&self, d: Vec6<V>) -> Wrench<V> {
+        let (half, sixth) = (V::Number::splat(0.5), V::Number::splat(1.0 / 6.0));
+        let (m, n) = (self.wrench.angular, self.wrench.linear);
+        let along = m * (self.x.angular.dot(d.angular) * sixth) + n * (self.x.linear.dot(d.angular) * sixth);
+        Wrench::new(
+            d.angular.cross(self.turn) + (d.angular * self.trace - along) + d.linear.cross(n) * half,
+            d.angular.cross(n) * half,
         )
     }
-}
 
-/// `(1 + E) r` with `E` to first order in the exponent.
-#[inline(always)]
-fn first_order_step<R: Real, V: Shift<R>>(h: R, compliance: Vec6<R>, w: Wrench<R>, r: Vec6<R>) -> Vec6<R> {
-    let half = h * R::splat(0.5);
-    let mut moment = r.angular.cross(w.angular);
-    if V::FREE {
-        moment += r.linear.cross(w.linear);
+    /// The step of the mean wrench that closes a residual, which turns the element by `turn`: `r + K (1 + S K) S r` in place of
+    /// `r + K (1 − S K)⁻¹ S r`, with the last factor to first order in the exponent.
+    #[inline(always)]
+    fn series_step(&self, compliance: &Vec6<V>, residual: Wrench<V>, turn: Vec6<V>) -> Wrench<V> {
+        let once = self.to(turn);
+        let twice = compliance.scale(once).coadjoint(self.wrench) * V::Number::splat(0.5);
+        residual + once + twice
     }
-    let angular = r.angular + compliance.angular.scale(moment) * half;
-    let linear = if V::FREE {
-        r.linear + compliance.linear.scale(r.angular.cross(w.linear)) * half
-    } else {
-        Vec3::zero()
-    };
-    Vec6::new(angular, linear)
 }
 
-/// How large a residual is, and what the two kinds of step would leave of it: with `q = h² n/EI`, about `(θ² + q)/2` of it, and
-/// `θ (θ² + q)/4`.
+/// How far a residual turns and shifts the element, and what the two kinds of step would leave of it: with `q = h² n/EI`, about
+/// `(θ² + q)/2` of it, and `θ (θ² + q)/4`.
 struct Gap<R> {
     size: R,
     rate: R,
@@ -358,14 +257,14 @@ struct Gap<R> {
 
 impl<R: Real> Gap<R> {
     #[inline(always)]
-    fn new<V: Shift<R>>(residual: Vec6<R>, t: R, h: R, compliance: Vec6<R>, w: Wrench<R>) -> Self {
-        let (a, s, n) = (residual.angular, compliance.angular, w.linear);
-        let mut size = (a.x.abs() + a.y.abs() + a.z.abs()) * h;
-        if V::FREE {
-            size += residual.linear.x.abs() + residual.linear.y.abs() + residual.linear.z.abs();
-        }
-        let q = (s.x + s.y) * (n.x.abs() + n.y.abs() + n.z.abs()) * (h * h);
-        Self { size, rate: t + q, t }
+    fn new<V: Vector<Number = R>>(
+        turn: &Vec6<V>,
+        t: R,
+        h: f64,
+        compliance: &Vec6<V>,
+        wrench: &Wrench<V>,
+    ) -> Self {
+        Self { size: turned(h, turn), rate: t + force_stiffening(h, compliance, wrench), t }
     }
 
     #[inline(always)]
@@ -384,12 +283,26 @@ impl<R: Real> Gap<R> {
     }
 }
 
-/// Order 4.
-pub(crate) struct Fourth<R> {
-    history: [History<R>; 2],
+/// How large a change of the exponent is, in rad and as a part of the length.
+#[inline(always)]
+fn turned<V: Vector>(h: f64, change: &Vec6<V>) -> V::Number {
+    change.angular.size() + change.linear.size() * V::Number::splat(1.0 / h)
 }
 
-impl<R: Real> LocalSolver<R> for Fourth<R> {
+/// `q = h² n/EI`: how much of a turn the force across the turned element adds to it.
+#[inline(always)]
+fn force_stiffening<V: Vector>(h: f64, compliance: &Vec6<V>, wrench: &Wrench<V>) -> V::Number {
+    let [bend1, bend2, _] = compliance.angular.parts();
+    (bend1 + bend2) * (wrench.linear.size() * V::Number::splat(h))
+}
+
+/// Order 4.
+pub(crate) struct Fourth<V> {
+    /// What each point's strain, times the length, has beyond `ε̂ + S w`.
+    history: [History<V>; 2],
+}
+
+impl<V: Vector> LocalSolver<V> for Fourth<V> {
     const POINTS: usize = 2;
 
     #[inline(always)]
@@ -398,48 +311,56 @@ impl<R: Real> LocalSolver<R> for Fourth<R> {
     }
 
     #[inline(always)]
-    fn next(&mut self, h: f64, points: &[DiagonalPoint], wrench: Wrench<R>) -> Solved<R> {
-        let explicit = [points[0].explicit(wrench), points[1].explicit(wrench)];
-        let compliance = [points[0].compliance.splat::<R>(), points[1].compliance.splat::<R>()];
-        let half = R::splat(0.5);
-        let mut strains: PointStrains<R> =
-            core::array::from_fn(|i| explicit[i] + self.history[i].next::<true>());
-        let mean_strain = (strains[0] + strains[1]) * half;
-        let newton = LocalNewton::new(h, (compliance[0] + compliance[1]) * half, mean_strain, wrench);
+    fn next(&mut self, points: &[DiagonalPoint], h: f64, wrench: &Wrench<V>) -> Solved<V> {
+        let compliance = [points[0].compliance.splat::<V>(), points[1].compliance.splat::<V>()];
+        let explicit = [points[0].exponent(*wrench), points[1].exponent(*wrench)];
+        let half = V::Number::splat(0.5);
+        // Written out: closures over arrays are not always put in line, and must be for their vector instructions.
+        let mut x = [explicit[0] + self.history[0].next(), explicit[1] + self.history[1].next()];
+        let middle = (x[0] + x[1]) * half;
+        let response = Response::new(&middle, wrench, middle.coadjoint(*wrench).angular);
+        let compliance_between = (compliance[0] + compliance[1]) * half;
+        let newton = LocalNewton::new(&compliance_between, &response);
+        // A step leaves about this part of itself.
+        let turns = x[0].angular.dot(x[0].angular) + x[1].angular.dot(x[1].angular);
+        let rate = turns + force_stiffening(h, &compliance_between, wrench);
         for _ in 0..MAX_LOCAL_ITERATIONS {
-            let mean = mean_wrench(exponent(Order::Fourth, h, &strains), wrench);
-            let stress = gauss_stresses(h, &strains, mean);
-            let residual: PointStrains<R> =
-                core::array::from_fn(|i| explicit[i] + compliance[i].scale(stress[i] - wrench) - strains[i]);
+            // Over the element's length all is dimensionless: an element of length one with the strains `x`.
+            let mean = Carried::new(&exponent(Order::Fourth, 1.0, &x), wrench).mean;
+            let stress = gauss_stresses(1.0, &x, mean);
+            let residual = [
+                explicit[0] + compliance[0].scale(stress[0] - *wrench) - x[0],
+                explicit[1] + compliance[1].scale(stress[1] - *wrench) - x[1],
+            ];
             let common_residual = (residual[0] + residual[1]) * half;
             let common = newton.step(common_residual);
             // The difference of the two strains follows from the mean one.
-            let follow = common.coadjoint(mean) * R::splat(GAUSS_OFFSET * h);
+            let follow = common.coadjoint(mean) * V::Number::splat(GAUSS_OFFSET);
             let step = [
                 residual[0] - common_residual + common + compliance[0].scale(follow),
                 residual[1] - common_residual + common - compliance[1].scale(follow),
             ];
-            strains[0] += step[0];
-            strains[1] += step[1];
-            if R::all(R::and(newton.converged(step[0]), newton.converged(step[1]))) {
-                for i in 0..2 {
-                    self.history[i].push::<true>(strains[i] - explicit[i]);
-                }
-                let relative = Pose::exp(exponent(Order::Fourth, h, &strains));
-                return Solved { strain: strains[0], second: strains[1], relative };
+            x[0] += step[0];
+            x[1] += step[1];
+            let size = turned(h, &step[0]) + turned(h, &step[1]);
+            let left = (size * rate).at_most(LOCAL_TOLERANCE);
+            if V::Number::all(V::Number::and(size.at_most(LARGEST_LAST_STEP), left)) {
+                self.history[0].push(x[0] - explicit[0]);
+                self.history[1].push(x[1] - explicit[1]);
+                return Solved::at(x, exponent(Order::Fourth, 1.0, &x), wrench);
             }
         }
-        not_converged()
+        Solved::not_converged()
     }
 }
 
 /// The multistep variant: the strains of the two neighbours, extrapolated, in place of the unknown one.
-pub(crate) struct Multistep<R> {
-    elastic: [Strain<R>; 2],
+pub(crate) struct Multistep<V> {
+    elastic: [Vec6<V>; 2],
     known: usize,
 }
 
-impl<R: Real> LocalSolver<R> for Multistep<R> {
+impl<V: Vector> LocalSolver<V> for Multistep<V> {
     const POINTS: usize = 1;
 
     #[inline(always)]
@@ -448,156 +369,170 @@ impl<R: Real> LocalSolver<R> for Multistep<R> {
     }
 
     #[inline(always)]
-    fn next(&mut self, h: f64, points: &[DiagonalPoint], wrench: Wrench<R>) -> Solved<R> {
-        let (compliance, rest) = (points[0].compliance.splat::<R>(), points[0].rest.splat::<R>());
+    fn next(&mut self, points: &[DiagonalPoint], _: f64, wrench: &Wrench<V>) -> Solved<V> {
+        let (compliance, rest) = (points[0].compliance.splat::<V>(), points[0].rest.splat::<V>());
         let elastic = match self.known {
-            0 => compliance.scale(wrench),
+            0 => compliance.scale(*wrench),
             1 => self.elastic[0],
-            _ => self.elastic[0] * R::splat(2.0) - self.elastic[1],
+            _ => self.elastic[0] * V::Number::splat(2.0) - self.elastic[1],
         };
-        let mean = mean_wrench((rest + elastic) * R::splat(h), wrench);
+        let mean = Carried::new(&(rest + elastic), wrench).mean;
         self.elastic = [compliance.scale(mean), self.elastic[0]];
         self.known += 1;
-        let strain = rest + self.elastic[0];
-        Solved { strain, second: strain, relative: Pose::exp(strain * R::splat(h)) }
+        let x = rest + self.elastic[0];
+        Solved::at([x; 2], x, wrench)
     }
 }
 
-/// The Newton matrix of the local equation up to second order in the exponent, inverted: for elements of large turn, and for order 4.
-struct LocalNewton<R> {
-    h: R,
-    compliance: Vec6<R>,
-    half_force: Vec3<R>,
-    inverse: Mat3<R>,
-    theta2: R,
+/// The Newton matrix of the local equation, `1 − S K` with `K` the [`Response`], inverted: for elements of large turn, and for order 4.
+struct LocalNewton<V: Vector> {
+    compliance: Vec6<V>,
+    half_force: V,
+    inverse: Mat3<V>,
 }
 
-impl<R: Real> LocalNewton<R> {
+impl<V: Vector> LocalNewton<V> {
     #[inline(always)]
-    fn new(h: f64, compliance: Vec6<R>, strain: Strain<R>, w: Wrench<R>) -> Self {
-        let length = R::splat(h);
-        let (u, v, m, n) = (strain.angular * length, strain.linear * length, w.angular, w.linear);
-        let sixth = R::splat(1.0 / 6.0);
-        let turn = m * R::splat(0.5) + (u.cross(m) + v.cross(n)) * sixth;
-        let trace = (u.dot(m) + v.dot(n)) * sixth;
-        let one = R::one();
-        let (su, m6, n6) = (compliance.angular * length, m * sixth, n * sixth);
-        // 1 − h S ∂m̄/∂u with ∂m̄/∂u ≈ −(m/2 + (u×m + v×n)/6)^ − (m uᵀ + n vᵀ)/6 + (u·m + v·n)/6, row by row.
-        let row = |scale: R, hat: Vec3<R>, mi: R, ni: R| (hat + u * mi + v * ni) * scale;
-        let rows = [
-            row(su.x, Vec3::new(R::zero(), -turn.z, turn.y), m6.x, n6.x),
-            row(su.y, Vec3::new(turn.z, R::zero(), -turn.x), m6.y, n6.y),
-            row(su.z, Vec3::new(-turn.y, turn.x, R::zero()), m6.z, n6.z),
-        ];
-        let matrix = Mat3::from_cols(
-            Vec3::new(one - su.x * trace + rows[0].x, rows[0].y, rows[0].z),
-            Vec3::new(rows[1].x, one - su.y * trace + rows[1].y, rows[1].z),
-            Vec3::new(rows[2].x, rows[2].y, one - su.z * trace + rows[2].z),
-        );
+    fn new(compliance: &Vec6<V>, response: &Response<V>) -> Self {
+        let sixth = V::Number::splat(1.0 / 6.0);
+        let (u, v, turn) = (vec3(response.x.angular), vec3(response.x.linear), vec3(response.turn));
+        let (m6, n6) = (vec3(response.wrench.angular * sixth), vec3(response.wrench.linear * sixth));
+        let s = vec3(compliance.angular);
+        let one = Vec3::new(V::Number::one(), V::Number::one(), V::Number::one());
+        // 1 − S ∂m̄/∂u with ∂m̄/∂u ≈ −turn^ − (m uᵀ + n vᵀ)/6 + trace, transposed.
+        let by_turn = outer(u, m6) + outer_plus_hat(v, n6, -response.trace, -turn);
+        let transposed = Mat3::diagonal(one) + scale_columns(by_turn, s);
+        let inverse = transposed.inverse().transpose();
         Self {
-            h: length,
-            compliance,
-            half_force: n * (length * R::splat(0.5)),
-            inverse: matrix.inverse().transpose(),
-            theta2: u.dot(u),
+            compliance: *compliance,
+            half_force: response.wrench.linear * V::Number::splat(0.5),
+            inverse: Mat3::from_cols(
+                vector(inverse.cols[0]),
+                vector(inverse.cols[1]),
+                vector(inverse.cols[2]),
+            ),
         }
     }
 
     #[inline(always)]
-    fn step(&self, residual: Strain<R>) -> Strain<R> {
+    fn step(&self, residual: Vec6<V>) -> Vec6<V> {
         let bent = self.compliance.angular.scale(residual.linear.cross(self.half_force));
         let angular = self.inverse * (residual.angular + bent);
         let sheared = self.compliance.linear.scale(angular.cross(self.half_force));
-        Strain::new(angular, residual.linear + sheared)
-    }
-
-    /// Whether what is left after a step is round-off: the next step would be smaller by about `θ²` or more.
-    #[inline(always)]
-    fn converged(&self, step: Strain<R>) -> R::Mask {
-        let (a, l) = (step.angular, step.linear);
-        let turn = (a.x.abs() + a.y.abs() + a.z.abs()) * self.h;
-        let shift = l.x.abs() + l.y.abs() + l.z.abs();
-        let size = turn + shift;
-        R::and(size.at_most(LARGEST_LAST_STEP), (size * self.theta2).at_most(LOCAL_TOLERANCE))
+        Vec6::new(angular, residual.linear + sheared)
     }
 }
 
-/// The flexibility of an element of order 2 with a diagonal law, in the factors that are cheapest to apply: `T · inner · Tᵀ`, with `T`
-/// made of `turn` on its diagonal and `shift` below it. `inner` takes a moment and a force `(m, n)` to a bend `a m + b n` and a
-/// stretch `stretch ∘ n + c bend`; only `a` is there where the linear strain is not free.
-pub(crate) struct DiagonalFlexibility {
-    pub turn: Mat3,
-    pub shift: Mat3,
-    pub a: Mat3,
-    pub b: Mat3,
-    pub c: Mat3,
-    pub stretch: Vec3,
+/// The flexibility of an element of order 2 with a diagonal law, or of several side by side, in factors: `T · inner · Tᵀ`, with `T` made of
+/// `turn` on its diagonal and `shift` below it. `inner` takes a moment and a force `(m, n)` to a bend `a m + b n` and a stretch
+/// `stretch ∘ n + c bend`.
+pub(crate) struct DiagonalFlexibility<R = f64> {
+    turn: Mat3<Vec3<R>>,
+    shift: Mat3<Vec3<R>>,
+    a: Mat3<Vec3<R>>,
+    b: Mat3<Vec3<R>>,
+    c: Mat3<Vec3<R>>,
+    stretch: Vec3<R>,
 }
 
 impl DiagonalFlexibility {
     /// As one matrix.
     pub(crate) fn to_matrix(&self) -> Mat6 {
-        let zero = Mat3::ZERO;
-        let tangent = Mat6 { blocks: [[self.turn, zero], [self.shift, self.turn]] };
-        let inner = [[self.a, self.b], [self.c * self.a, Mat3::diagonal(self.stretch) + self.c * self.b]];
-        tangent.mul(&Mat6 { blocks: inner }).mul(&tangent.transpose())
+        Mat6 { blocks: self.blocks() }
     }
 }
 
-/// [`flexibility`](super::flexibility) for order 2 and a diagonal law.
+impl<R: Real> DiagonalFlexibility<R> {
+    /// The same element, its flexibility seen from a frame in which its far node has the given pose.
+    #[inline(always)]
+    pub(crate) fn seen_from(mut self, far: &Pose<Vec3<R>>) -> Self {
+        self.turn = far.rotation * self.turn;
+        let [a, b, c] = self.turn.cols;
+        let p = far.position;
+        self.shift = far.rotation * self.shift + Mat3::from_cols(p.cross(a), p.cross(b), p.cross(c));
+        self
+    }
+
+    /// `T · inner · Tᵀ`, block by block.
+    #[inline(always)]
+    pub(crate) fn blocks(&self) -> [[Mat3<Vec3<R>>; 2]; 2] {
+        let (turn, shift) = (self.turn, self.shift);
+        let (turn_t, shift_t) = (turn.transpose(), shift.transpose());
+        // inner Tᵀ, with inner = [[a, b], [c a, stretch + c b]].
+        let bend = [self.a * turn_t, self.a * shift_t + self.b * turn_t];
+        let stretch = [self.c * bend[0], self.c * bend[1] + scale_rows(self.stretch, turn_t)];
+        [
+            [turn * bend[0], turn * bend[1]],
+            [shift * bend[0] + turn * stretch[0], shift * bend[1] + turn * stretch[1]],
+        ]
+    }
+}
+
+/// [`flexibility`](super::flexibility) for order 2 and a diagonal law: from `h S`, the exponent, and the wrench through the far node.
 #[inline(always)]
-pub(crate) fn diagonal_flexibility<const KIRCHHOFF: bool>(
-    h: f64,
-    point: &DiagonalPoint,
-    w: Wrench,
-    strain: &Strain,
-) -> DiagonalFlexibility {
-    let (u, v) = (strain.angular * h, if KIRCHHOFF { Vec3::new(0.0, 0.0, h) } else { strain.linear * h });
+pub(crate) fn diagonal_flexibility<R: Real>(
+    compliance: Vec6<Vec3<R>>,
+    x: Vec6<Vec3<R>>,
+    w: Wrench<Vec3<R>>,
+) -> DiagonalFlexibility<R> {
+    let (u, v, m, n) = (x.angular, x.linear, w.angular, w.linear);
     let t = u.dot(u);
     let k = exp_coefficients(t);
     let (ddb, ddc) = exp_coefficients_second(t);
-    let (m, n) = (w.angular, w.linear);
-    let twice = 2.0 * u.dot(v);
+    let two = R::splat(2.0);
+    let twice = u.dot(v) * two;
     // The tangent, by the identities û² = u uᵀ − t and û v̂ + v̂ û = v uᵀ + u vᵀ − 2 u·v.
-    let turn = symmetric_plus_hat(u * k.c, u, 1.0 - t * k.c, u * -k.b);
-    let shift = Mat3::outer(v * k.c, u)
-        + symmetric_plus_hat(
-            u * (twice * k.dc),
-            u,
-            -twice * (k.c + t * k.dc),
-            v * -k.b + u * (-twice * k.db),
-        )
-        + Mat3::outer(u * k.c, v);
+    let turn = outer_plus_hat(u * k.c, u, R::one() - t * k.c, -(u * k.b));
+    let shift = outer(v * k.c, u)
+        + outer_plus_hat(u * (twice * k.dc), u, -(twice * (k.c + t * k.dc)), -(v * k.b + u * (twice * k.db)))
+        + outer(u * k.c, v);
     let un = u.cross(n);
     let uun = u.cross(un);
     let first = u.cross(m) + v.cross(n);
     let second = u.cross(first) + v.cross(un);
     // ∂m̄/∂u, with û m̂ = m uᵀ − u·m and the like.
-    let coupling = (un * k.db + uun * k.dc) * 2.0;
-    let along_u =
-        (first * k.db + second * k.dc + (un * ddb + uun * ddc) * twice) * 2.0 - m * k.c - n * (twice * k.dc);
+    let coupling = (un * k.db + uun * k.dc) * two;
+    let along_u = (first * k.db + second * k.dc + (un * ddb + uun * ddc) * twice) * two
+        - (m * k.c + n * (twice * k.dc));
     let along_v = coupling - n * k.c;
     let trace = k.c * (u.dot(m) + v.dot(n)) + twice * k.dc * u.dot(n);
     let hat = m * k.b + first * k.c + n * (twice * k.db) + un * (twice * k.dc);
-    let moment_by_turn = Mat3::outer(along_u, u) + symmetric_plus_hat(along_v, v, trace, -hat);
-    let (su, sv) = (point.compliance.angular * h, point.compliance.linear * h);
-    if KIRCHHOFF {
-        let a = scale_columns((Mat3::IDENTITY - scale_rows(su, moment_by_turn)).inverse(), su);
-        let zero = Mat3::ZERO;
-        return DiagonalFlexibility { turn, shift, a, b: zero, c: zero, stretch: Vec3::ZERO };
+    let moment_by_turn = outer(along_u, u) + outer_plus_hat(along_v, v, trace, -hat);
+    let common = outer_plus_hat(along_v, u, k.c * u.dot(n), -(n * k.b + un * k.c));
+    // (1 − S K) δx = S Tᵀ δw; ∂n̄/∂v = 0 and ∂n̄/∂u = ∂m̄/∂v, so the shifts are eliminated by hand.
+    let (bend, stretch) = (compliance.angular, compliance.linear);
+    let (by_shift, c) = (scale_rows(bend, common), scale_rows(stretch, common));
+    let one = Mat3::diagonal(Vec3::new(R::one(), R::one(), R::one()));
+    let schur = (one - scale_rows(bend, moment_by_turn) - by_shift * c).inverse();
+    DiagonalFlexibility {
+        turn,
+        shift,
+        a: scale_columns(schur, bend),
+        b: scale_columns(schur * by_shift, stretch),
+        c,
+        stretch,
     }
-    let common = symmetric_plus_hat(coupling - n * k.c, u, k.c * u.dot(n), -(n * k.b + un * k.c));
-    // (1 − S h K) δε = S Tᵀ δw; ∂n̄/∂v = 0 and ∂n̄/∂u = ∂m̄/∂v, so the shifts are eliminated by hand.
-    let (by_shift, c) = (scale_rows(su, common), scale_rows(sv, common));
-    let schur = (Mat3::IDENTITY - scale_rows(su, moment_by_turn) - by_shift * c).inverse();
-    let a = scale_columns(schur, su);
-    let b = scale_columns(schur * by_shift, sv);
-    DiagonalFlexibility { turn, shift, a, b, c, stretch: sv }
+}
+
+#[inline(always)]
+fn vec3<V: Vector>(v: V) -> Vec3<V::Number> {
+    let [x, y, z] = v.parts();
+    Vec3 { x, y, z }
+}
+
+#[inline(always)]
+fn vector<V: Vector>(v: Vec3<V::Number>) -> V {
+    V::new(v.x, v.y, v.z)
+}
+
+#[inline(always)]
+fn outer<R: Real>(a: Vec3<R>, b: Vec3<R>) -> Mat3<Vec3<R>> {
+    Mat3::outer(a, b)
 }
 
 /// `a bᵀ + diagonal + hat^`.
 #[inline(always)]
-fn symmetric_plus_hat(a: Vec3, b: Vec3, diagonal: f64, hat: Vec3) -> Mat3 {
+fn outer_plus_hat<R: Real>(a: Vec3<R>, b: Vec3<R>, diagonal: R, hat: Vec3<R>) -> Mat3<Vec3<R>> {
     Mat3::from_cols(
         Vec3::new(a.x * b.x + diagonal, a.y * b.x + hat.z, a.z * b.x - hat.y),
         Vec3::new(a.x * b.y - hat.z, a.y * b.y + diagonal, a.z * b.y + hat.x),
@@ -606,11 +541,11 @@ fn symmetric_plus_hat(a: Vec3, b: Vec3, diagonal: f64, hat: Vec3) -> Mat3 {
 }
 
 #[inline(always)]
-fn scale_rows(s: Vec3, m: Mat3) -> Mat3 {
+fn scale_rows<R: Real>(s: Vec3<R>, m: Mat3<Vec3<R>>) -> Mat3<Vec3<R>> {
     Mat3 { cols: [m.cols[0].scale(s), m.cols[1].scale(s), m.cols[2].scale(s)] }
 }
 
 #[inline(always)]
-fn scale_columns(m: Mat3, s: Vec3) -> Mat3 {
+fn scale_columns<R: Real>(m: Mat3<Vec3<R>>, s: Vec3<R>) -> Mat3<Vec3<R>> {
     Mat3 { cols: [m.cols[0] * s.x, m.cols[1] * s.y, m.cols[2] * s.z] }
 }

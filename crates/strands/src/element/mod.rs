@@ -21,12 +21,12 @@
 mod diagonal;
 
 pub(crate) use diagonal::{
-    DiagonalFlexibility, DiagonalPoint, First, Fourth, LocalSolver, Multistep, Second, Straight,
-    diagonal_flexibility,
+    DiagonalPoint, First, Fourth, LocalSolver, Multistep, Second, Solved, diagonal_flexibility,
 };
 
 use crate::math::{
-    Mat3, Mat6, Real, Strain, Stress, Vec6, Wrench, exp_coefficients, exp_coefficients_second, lu, tangent,
+    ExpCoefficients, Mat3, Mat6, Real, Strain, Stress, Vec3, Vec6, Vector, Wrench, exp_coefficients,
+    exp_coefficients_second, lu, tangent,
 };
 use crate::rod::{Kinematics, Order, Point, Rod};
 
@@ -35,22 +35,44 @@ const GAUSS_OFFSET: f64 = 0.288_675_134_594_812_9;
 /// A local iteration that takes longer than this is not going to end.
 const MAX_LOCAL_ITERATIONS: usize = 60;
 /// The strain at the points of an element, one or two of them.
-pub(crate) type PointStrains<R = f64> = [Strain<R>; 2];
+pub(crate) type PointStrains<V = Vec3> = [Strain<V>; 2];
+
+/// The wrench that an element of exponent `x` carries, `w` through its far node, seen along the element in the local frame.
+pub(crate) struct Carried<V: Vector> {
+    /// Its mean, `σ̄ = T(x)ᵀ w`.
+    pub mean: Stress<V>,
+    /// `θ² = u·u`.
+    pub t: V::Number,
+    /// The coefficients of the exponential there.
+    pub coefficients: ExpCoefficients<V::Number>,
+    /// `u×m + v×n`.
+    bent: V,
+}
+
+impl<V: Vector> Carried<V> {
+    #[inline(always)]
+    pub fn new(x: &Vec6<V>, w: &Wrench<V>) -> Self {
+        let u = x.angular;
+        let t = u.dot(u);
+        let k = exp_coefficients(t);
+        let first = x.coadjoint(*w);
+        let second = x.coadjoint(first);
+        let twice = u.dot(x.linear) * V::Number::splat(2.0);
+        let mean = Stress::new(
+            w.angular
+                + (first.angular * k.b
+                    + second.angular * k.c
+                    + first.linear * (twice * k.db)
+                    + second.linear * (twice * k.dc)),
+            w.linear + (first.linear * k.b + second.linear * k.c),
+        );
+        Self { mean, t, coefficients: k, bent: first.angular }
+    }
+}
 
 /// `σ̄ = T(x)ᵀ w`: the mean along an element of the wrench that it carries.
-#[inline(always)]
-pub(crate) fn mean_wrench<R: Real>(x: Vec6<R>, w: Wrench<R>) -> Stress<R> {
-    let (u, v, m, n) = (x.angular, x.linear, w.angular, w.linear);
-    let k = exp_coefficients(u.dot(u));
-    let un = u.cross(n);
-    let uun = u.cross(un);
-    let first = u.cross(m) + v.cross(n);
-    let second = u.cross(first) + v.cross(un);
-    let twice = u.dot(v) * R::splat(2.0);
-    Stress::new(
-        m + first * k.b + second * k.c + un * (twice * k.db) + uun * (twice * k.dc),
-        n + un * k.b + uun * k.c,
-    )
+pub(crate) fn mean_wrench(x: Vec6, w: Wrench) -> Stress {
+    Carried::new(&x, &w).mean
 }
 
 /// The derivative of [`mean_wrench`] by `x`: the blocks `∂m̄/∂u`, `∂m̄/∂v` and `∂n̄/∂u` (`∂n̄/∂v` is zero).
@@ -89,20 +111,20 @@ fn mean_wrench_derivative(x: Vec6, w: Wrench) -> MeanWrenchDerivative {
 
 /// The exponent of an element from the strains at its points.
 #[inline(always)]
-pub(crate) fn exponent<R: Real>(order: Order, h: f64, strain: &PointStrains<R>) -> Vec6<R> {
+pub(crate) fn exponent<V: Vector>(order: Order, h: f64, strain: &PointStrains<V>) -> Vec6<V> {
     match order {
-        Order::First | Order::Second => strain[0] * R::splat(h),
+        Order::First | Order::Second => strain[0] * V::Number::splat(h),
         Order::Fourth => {
-            (strain[0] + strain[1]) * R::splat(0.5 * h)
-                + strain[0].bracket(strain[1]) * R::splat(0.5 * GAUSS_OFFSET * h * h)
+            (strain[0] + strain[1]) * V::Number::splat(0.5 * h)
+                + strain[0].bracket(strain[1]) * V::Number::splat(0.5 * GAUSS_OFFSET * h * h)
         }
     }
 }
 
 /// The stresses at the two points of an element of order 4.
 #[inline(always)]
-fn gauss_stresses<R: Real>(h: f64, strain: &PointStrains<R>, mean: Stress<R>) -> [Stress<R>; 2] {
-    let k = R::splat(GAUSS_OFFSET * h);
+fn gauss_stresses<V: Vector>(h: f64, strain: &PointStrains<V>, mean: Stress<V>) -> [Stress<V>; 2] {
+    let k = V::Number::splat(GAUSS_OFFSET * h);
     [mean + strain[1].coadjoint(mean) * k, mean - strain[0].coadjoint(mean) * k]
 }
 
@@ -197,12 +219,9 @@ pub(crate) fn flexibility_of(
     order: Order,
 ) -> Option<Mat6> {
     let h = rod.element_length(e);
-    match (order, rod.diagonal_points(), rod.kinematics()) {
-        (Order::Second, Some(points), Kinematics::Kirchhoff) => {
-            Some(diagonal_flexibility::<true>(h, &points[e], w, &strain[0]).to_matrix())
-        }
-        (Order::Second, Some(points), Kinematics::Cosserat) => {
-            Some(diagonal_flexibility::<false>(h, &points[e], w, &strain[0]).to_matrix())
+    match (order, rod.diagonal_points()) {
+        (Order::Second, Some(points)) => {
+            Some(diagonal_flexibility::<f64>(points[e].compliance, strain[0] * h, w).to_matrix())
         }
         _ => flexibility(order, rod.kinematics(), h, rod.points(e), w, strain),
     }

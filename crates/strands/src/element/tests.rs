@@ -18,14 +18,6 @@ fn point() -> impl Strategy<Value = Point> {
     })
 }
 
-fn packed(kinematics: Kinematics, point: &Point) -> DiagonalPoint {
-    let Law::Diagonal(stiffness) = &point.law else { unreachable!() };
-    let c = stiffness.to_diagonal();
-    let inverse = |v: Vec3| Vec3::new(1.0 / v.x, 1.0 / v.y, 1.0 / v.z);
-    let linear = if kinematics == Kinematics::Cosserat { inverse(c.linear) } else { Vec3::ZERO };
-    DiagonalPoint { compliance: Vec6::new(inverse(c.angular), linear), rest: point.rest }
-}
-
 proptest! {
     #![proptest_config(ProptestConfig::with_cases(300))]
 
@@ -56,12 +48,11 @@ proptest! {
         kirchhoff in any::<bool>(),
     ) {
         let kinematics = if kirchhoff { Kinematics::Kirchhoff } else { Kinematics::Cosserat };
-        let packed = points.clone().map(|p| packed(kinematics, &p));
-        let quick = |order: Order| match (order, kirchhoff) {
-            (Order::First, _) => <First as LocalSolver<f64>>::new().next(h, &packed, w),
-            (Order::Second, true) => <Second<f64, Straight<f64>> as LocalSolver<f64>>::new().next(h, &packed, w),
-            (Order::Second, false) => <Second<f64, Vec3> as LocalSolver<f64>>::new().next(h, &packed, w),
-            (Order::Fourth, _) => <Fourth<f64> as LocalSolver<f64>>::new().next(h, &packed, w),
+        let diagonal = points.clone().map(|p| DiagonalPoint::new(kinematics, h, &p).expect("a diagonal law"));
+        let quick = |order: Order| match order {
+            Order::First => <First as LocalSolver<Vec3>>::new().next(&diagonal, h, &w),
+            Order::Second => Second::<Vec3>::new().next(&diagonal, h, &w),
+            Order::Fourth => Fourth::<Vec3>::new().next(&diagonal, h, &w),
         };
         for order in [Order::First, Order::Second, Order::Fourth] {
             let n = order.places().len();
@@ -69,11 +60,15 @@ proptest! {
             let rest = [points[0].rest, points[n - 1].rest];
             let general = solve_general(order, kinematics, h, &points[..n], w, rest);
             let general = general.expect("converges");
-            let gap = (general[0] - quick.strain).max_abs().max((general[n - 1] - quick.second).max_abs());
-            prop_assert!(gap * h < 1e-12, "{order:?} {kinematics:?}: {gap:e} at h = {h}");
-            let relative = Pose::exp(exponent(order, h, &general));
-            let gap = (relative.position - quick.relative.position).max_abs();
-            prop_assert!(gap < 1e-12 && (relative.rotation - quick.relative.rotation).max_abs() < 1e-12);
+            let exponent = exponent(order, h, &general);
+            let gap = (general[0] * h - quick.points[0])
+                .max_abs()
+                .max((general[n - 1] * h - quick.points[1]).max_abs())
+                .max((exponent - quick.exponent).max_abs());
+            prop_assert!(gap < 1e-12, "{order:?} {kinematics:?}: {gap:e} at h = {h}");
+            let carried = Pose::exp(exponent).carry_wrench(w);
+            let gap = (carried - quick.carry(&w)).max_abs();
+            prop_assert!(gap < 1e-12 * (1.0 + w.max_abs()), "{order:?} {kinematics:?}: {gap:e} at h = {h}");
         }
     }
 
@@ -99,12 +94,8 @@ proptest! {
             let exact = flexibility(order, kinematics, h, points, w, &strain).expect("regular").mul_vec(d);
             prop_assert!((exact - slope).max_abs() < 1e-7 * (1.0 + exact.max_abs()), "{order:?} {kinematics:?}");
             if order == Order::Second {
-                let packed = packed(kinematics, &points[0]);
-                let quick = if kirchhoff {
-                    diagonal_flexibility::<true>(h, &packed, w, &strain[0])
-                } else {
-                    diagonal_flexibility::<false>(h, &packed, w, &strain[0])
-                };
+                let point = DiagonalPoint::new(kinematics, h, &points[0]).expect("a diagonal law");
+                let quick = diagonal_flexibility::<f64>(point.compliance, strain[0] * h, w);
                 let gap = (quick.to_matrix().mul_vec(d) - exact).max_abs();
                 prop_assert!(gap < 1e-12 * (1.0 + exact.max_abs()), "{kinematics:?}: {gap:e}");
             }

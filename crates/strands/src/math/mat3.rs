@@ -1,17 +1,17 @@
 //! Square matrices of three rows.
 
-use super::{Real, Vec3};
+use super::{Real, Vec3, Vector};
 use core::ops::{Add, Mul, Sub};
 
 /// A 3×3 matrix, kept by its columns. As an orientation its columns are the directors `d1 d2 d3`.
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[repr(C)]
-pub struct Mat3<R = f64> {
+pub struct Mat3<V = Vec3> {
     /// The columns.
-    pub cols: [Vec3<R>; 3],
+    pub cols: [V; 3],
 }
 
-impl Mat3<f64> {
+impl Mat3 {
     /// The identity.
     pub const IDENTITY: Self = Self::from_cols(Vec3::X, Vec3::Y, Vec3::Z);
     /// The zero matrix.
@@ -19,8 +19,9 @@ impl Mat3<f64> {
 
     /// The same matrix in every lane.
     #[inline(always)]
-    pub fn splat<R: Real>(self) -> Mat3<R> {
-        Mat3 { cols: [self.cols[0].splat(), self.cols[1].splat(), self.cols[2].splat()] }
+    pub fn splat<V: Vector>(self) -> Mat3<V> {
+        let [a, b, c] = self.cols;
+        Mat3 { cols: [V::splat(a), V::splat(b), V::splat(c)] }
     }
 
     /// The largest entry in magnitude.
@@ -34,15 +35,15 @@ impl Mat3<f64> {
     }
 }
 
-impl<R> Mat3<R> {
+impl<V> Mat3<V> {
     /// A matrix from its columns.
     #[inline(always)]
-    pub const fn from_cols(a: Vec3<R>, b: Vec3<R>, c: Vec3<R>) -> Self {
+    pub const fn from_cols(a: V, b: V, c: V) -> Self {
         Self { cols: [a, b, c] }
     }
 }
 
-impl<R: Real> Mat3<R> {
+impl<R: Real> Mat3<Vec3<R>> {
     /// The diagonal matrix `diag(d)`.
     #[inline(always)]
     pub fn diagonal(d: Vec3<R>) -> Self {
@@ -70,12 +71,6 @@ impl<R: Real> Mat3<R> {
         Self::from_cols(Vec3::new(a.x, b.x, c.x), Vec3::new(a.y, b.y, c.y), Vec3::new(a.z, b.z, c.z))
     }
 
-    /// The product `Mᵀ v`.
-    #[inline(always)]
-    pub fn transpose_mul(self, v: Vec3<R>) -> Vec3<R> {
-        Vec3::new(self.cols[0].dot(v), self.cols[1].dot(v), self.cols[2].dot(v))
-    }
-
     /// The determinant.
     #[inline(always)]
     pub fn determinant(self) -> R {
@@ -91,23 +86,32 @@ impl<R: Real> Mat3<R> {
         let scale = R::one() / a.dot(bc);
         Self::from_cols(bc * scale, ca * scale, ab * scale).transpose()
     }
+}
+
+impl<V: Vector> Mat3<V> {
+    /// The product `Mᵀ v`.
+    #[inline(always)]
+    pub fn transpose_mul(self, v: V) -> V {
+        v.dots(self.cols)
+    }
 
     /// Each column times `k`.
     #[inline(always)]
-    pub fn scaled(self, k: R) -> Self {
+    pub fn scaled(self, k: V::Number) -> Self {
         Self { cols: [self.cols[0] * k, self.cols[1] * k, self.cols[2] * k] }
     }
 }
 
-impl<R: Real> Mul<Vec3<R>> for Mat3<R> {
-    type Output = Vec3<R>;
+impl<V: Vector> Mul<V> for Mat3<V> {
+    type Output = V;
     #[inline(always)]
-    fn mul(self, v: Vec3<R>) -> Vec3<R> {
-        self.cols[0] * v.x + self.cols[1] * v.y + self.cols[2] * v.z
+    fn mul(self, v: V) -> V {
+        let [x, y, z] = v.spread();
+        self.cols[0].scale(x) + self.cols[1].scale(y) + self.cols[2].scale(z)
     }
 }
 
-impl<R: Real> Mul for Mat3<R> {
+impl<V: Vector> Mul for Mat3<V> {
     type Output = Self;
     #[inline(always)]
     fn mul(self, o: Self) -> Self {
@@ -115,7 +119,7 @@ impl<R: Real> Mul for Mat3<R> {
     }
 }
 
-impl<R: Real> Add for Mat3<R> {
+impl<V: Vector> Add for Mat3<V> {
     type Output = Self;
     #[inline(always)]
     fn add(self, o: Self) -> Self {
@@ -123,7 +127,7 @@ impl<R: Real> Add for Mat3<R> {
     }
 }
 
-impl<R: Real> Sub for Mat3<R> {
+impl<V: Vector> Sub for Mat3<V> {
     type Output = Self;
     #[inline(always)]
     fn sub(self, o: Self) -> Self {

@@ -1,11 +1,13 @@
 //! Small fixed-size algebra: vectors, orientations, poses in SE(3), and the coefficients of their exponential.
 //!
-//! Ours rather than a library's because one set of formulas serves a single rod, rods side by side in SIMD lanes and the
-//! dual numbers of the tests, and because the tangent of the SE(3) exponential and its derivatives are the heart of the rod.
+//! Ours rather than a library's because one set of formulas serves a single rod with a vector to a register and rods side by side in SIMD
+//! lanes, and because the tangent of the SE(3) exponential and its derivatives are the heart of the rod.
 
 mod lanes;
 mod mat3;
 mod mat6;
+#[cfg(target_arch = "x86_64")]
+mod packed;
 mod pose;
 mod quat;
 mod real;
@@ -13,19 +15,24 @@ mod series;
 mod simd;
 mod vec3;
 mod vec6;
+mod vector;
 
 pub use lanes::Lanes;
 pub use mat3::Mat3;
 pub use mat6::{Lu, Mat6, lu};
-pub(crate) use pose::exp_rotation;
+#[cfg(target_arch = "x86_64")]
+pub(crate) use packed::Packed;
 pub use pose::{Pose, tangent, tangent_inverse};
 pub use quat::Quat;
 pub use real::Real;
 pub use series::{ExpCoefficients, exp_coefficients, exp_coefficients_second};
 pub use simd::SimdLevel;
+#[cfg(target_arch = "x86_64")]
+pub(crate) use simd::with_avx2;
 pub(crate) use simd::{Kernel, dispatch};
 pub use vec3::Vec3;
 pub use vec6::{Strain, Stress, Vec6, Wrench};
+pub use vector::Vector;
 
 #[cfg(test)]
 mod tests;

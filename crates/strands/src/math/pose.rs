@@ -1,18 +1,18 @@
 //! Poses: the group SE(3) of frames `(R, p)`, its exponential, logarithm and tangent.
 
-use super::{Mat3, Mat6, Quat, Real, Vec3, Vec6, exp_coefficients};
+use super::{ExpCoefficients, Mat3, Mat6, Quat, Real, Vec3, Vec6, Vector, exp_coefficients};
 
 /// A frame: an orientation whose columns are the directors, and a position, m.
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[repr(C)]
-pub struct Pose<R = f64> {
+pub struct Pose<V = Vec3> {
     /// Orientation, body to world.
-    pub rotation: Mat3<R>,
+    pub rotation: Mat3<V>,
     /// Position in the world, m.
-    pub position: Vec3<R>,
+    pub position: V,
 }
 
-impl Pose<f64> {
+impl Pose {
     /// The world frame.
     pub const IDENTITY: Self = Self { rotation: Mat3::IDENTITY, position: Vec3::ZERO };
 
@@ -36,6 +36,12 @@ impl Pose<f64> {
         Vec6::new(u, p - up * 0.5 + u.cross(up) * d)
     }
 
+    /// The matrix of [`Pose::adjoint`].
+    pub(crate) fn adjoint_matrix(&self) -> Mat6 {
+        let arm = Mat3 { cols: self.rotation.cols.map(|column| self.position.cross(column)) };
+        Mat6 { blocks: [[self.rotation, Mat3::ZERO], [arm, self.rotation]] }
+    }
+
     /// Whether every number is finite.
     pub fn is_finite(&self) -> bool {
         self.rotation.is_finite() && self.position.is_finite()
@@ -43,30 +49,29 @@ impl Pose<f64> {
 
     /// The same pose in every lane.
     #[inline(always)]
-    pub fn splat<R: Real>(self) -> Pose<R> {
-        Pose { rotation: self.rotation.splat(), position: self.position.splat() }
+    pub fn splat<V: Vector>(self) -> Pose<V> {
+        Pose { rotation: self.rotation.splat(), position: V::splat(self.position) }
     }
 }
 
-impl<R: Real> Pose<R> {
+impl<R: Real> Pose<Vec3<R>> {
     /// The exponential: where the constant strain `x` leads over unit length ((12)–(15) of the paper).
     #[inline(always)]
-    pub fn exp(x: Vec6<R>) -> Self {
+    pub fn exp(x: Vec6<Vec3<R>>) -> Self {
         let (u, v) = (x.angular, x.linear);
         let t = u.dot(u);
         let k = exp_coefficients(t);
-        let rotation = exp_rotation(u, t, k.b, k.c);
+        let (a, cos) = (R::one() - t * k.c, R::one() - t * k.b);
+        // exp û = cos θ + a û + b u uᵀ, which saves forming û².
+        let (bu, au) = (u * k.b, u * a);
+        let (xy, xz, yz) = (bu.x * u.y, bu.x * u.z, bu.y * u.z);
+        let rotation = Mat3::from_cols(
+            Vec3::new(cos + bu.x * u.x, xy + au.z, xz - au.y),
+            Vec3::new(xy - au.z, cos + bu.y * u.y, yz + au.x),
+            Vec3::new(xz + au.y, yz - au.x, cos + bu.z * u.z),
+        );
         let uv = u.cross(v);
         Self { rotation, position: v + uv * k.b + u.cross(uv) * k.c }
-    }
-
-    /// The product `self · other`: `other` given in this frame.
-    #[inline(always)]
-    pub fn compose(&self, other: &Self) -> Self {
-        Self {
-            rotation: self.rotation * other.rotation,
-            position: self.rotation * other.position + self.position,
-        }
     }
 
     /// The inverse.
@@ -84,33 +89,52 @@ impl<R: Real> Pose<R> {
             position: self.rotation.transpose_mul(other.position - self.position),
         }
     }
+}
+
+impl<V: Vector> Pose<V> {
+    /// The product `self · other`: `other` given in this frame.
+    #[inline(always)]
+    pub fn compose(&self, other: &Self) -> Self {
+        Self {
+            rotation: self.rotation * other.rotation,
+            position: self.rotation * other.position + self.position,
+        }
+    }
+
+    /// `self · exp(−x)`: the frame from which the exponent `x` leads to this one, with `t = u·u` and the coefficients there.
+    #[inline(always)]
+    pub(crate) fn before(&self, x: &Vec6<V>, t: V::Number, k: &ExpCoefficients<V::Number>) -> Self {
+        let (u, v) = (x.angular, x.linear);
+        let [d1, d2, d3] = self.rotation.cols;
+        let one = V::Number::one();
+        let (sin, cos) = (u * (one - t * k.c), one - t * k.b);
+        // R exp(−û) = cos θ R − a R û + b (R u) uᵀ.
+        let [sx, sy, sz] = sin.spread();
+        let [bx, by, bz] = (u * k.b).spread();
+        let turned = self.rotation * u;
+        let rotation = Mat3::from_cols(
+            (d1 * cos + turned.scale(bx)) + (d3.scale(sy) - d2.scale(sz)),
+            (d2 * cos + turned.scale(by)) + (d1.scale(sz) - d3.scale(sx)),
+            (d3 * cos + turned.scale(bz)) + (d2.scale(sx) - d1.scale(sy)),
+        );
+        let uv = u.cross(v);
+        let ahead = v - uv * k.b + u.cross(uv) * k.c;
+        Self { rotation, position: self.position - self.rotation * ahead }
+    }
 
     /// `Ad x`: a variation of the frame at the far end of this pose, as one of the frame at its near end.
     #[inline(always)]
-    pub fn adjoint(&self, x: Vec6<R>) -> Vec6<R> {
+    pub fn adjoint(&self, x: Vec6<V>) -> Vec6<V> {
         let angular = self.rotation * x.angular;
         Vec6::new(angular, self.rotation * x.linear + self.position.cross(angular))
     }
 
     /// `Ad⁻ᵀ w`: a wrench at the far end of this pose, moved to and expressed in the frame at its near end.
     #[inline(always)]
-    pub fn carry_wrench(&self, w: Vec6<R>) -> Vec6<R> {
+    pub fn carry_wrench(&self, w: Vec6<V>) -> Vec6<V> {
         let force = self.rotation * w.linear;
         Vec6::new(self.rotation * w.angular + self.position.cross(force), force)
     }
-}
-
-/// `exp û = cos θ + a û + b u uᵀ` from `t = θ²` and the coefficients `b` and `c` there, which saves forming `û²`.
-#[inline(always)]
-pub(crate) fn exp_rotation<R: Real>(u: Vec3<R>, t: R, b: R, c: R) -> Mat3<R> {
-    let (a, cos) = (R::one() - t * c, R::one() - t * b);
-    let (bu, au) = (u * b, u * a);
-    let (xy, xz, yz) = (bu.x * u.y, bu.x * u.z, bu.y * u.z);
-    Mat3::from_cols(
-        Vec3::new(cos + bu.x * u.x, xy + au.z, xz - au.y),
-        Vec3::new(xy - au.z, cos + bu.y * u.y, yz + au.x),
-        Vec3::new(xz + au.y, yz - au.x, cos + bu.z * u.z),
-    )
 }
 
 /// The tangent of the exponential `T(x) = Σ (−1)^k/(k+1)! ad_x^k`: `d exp(x) = exp(x) (T(x) dx)^`.

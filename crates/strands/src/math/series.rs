@@ -95,6 +95,11 @@ pub fn exp_coefficients_second<R: Real>(t: R) -> (R, R) {
     if R::all(small) {
         return series;
     }
+    second_with_larger_angles(t, small, series)
+}
+
+#[inline(never)]
+fn second_with_larger_angles<R: Real>(t: R, small: R::Mask, series: (R, R)) -> (R, R) {
     (
         R::select(small, series.0, t.map(|t| (exact(t).ddb, f64::NAN))),
         R::select(small, series.1, t.map(|t| (exact(t).ddc, f64::NAN))),

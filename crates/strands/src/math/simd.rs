@@ -78,14 +78,6 @@ pub(crate) trait Kernel {
 pub(crate) fn dispatch<K: Kernel>(level: SimdLevel, kernel: K) -> K::Output {
     #[cfg(target_arch = "x86_64")]
     {
-        #[target_feature(enable = "avx2")]
-        fn avx2<K: Kernel>(kernel: K) -> K::Output {
-            kernel.run()
-        }
-        #[target_feature(enable = "avx2,avx512f,avx512dq,avx512vl")]
-        fn avx512<K: Kernel>(kernel: K) -> K::Output {
-            kernel.run()
-        }
         // Detection is a load from a cache.
         let level = if level.width() > SimdLevel::detect().width() { SimdLevel::detect() } else { level };
         // SAFETY: the level is one that `detect` found on this machine. Calling a function with a target feature from one without is
@@ -98,5 +90,29 @@ pub(crate) fn dispatch<K: Kernel>(level: SimdLevel, kernel: K) -> K::Output {
         }
     }
     let _ = level;
+    kernel.run()
+}
+
+/// Runs a kernel with AVX2, whatever wider instructions the machine has; `None` where it has not got that.
+#[cfg(target_arch = "x86_64")]
+#[inline]
+pub(crate) fn with_avx2<K: Kernel>(kernel: K) -> Option<K::Output> {
+    if SimdLevel::detect().width() < SimdLevel::Avx2.width() {
+        return None;
+    }
+    // SAFETY: as above.
+    #[allow(unsafe_code)]
+    Some(unsafe { avx2(kernel) })
+}
+
+#[cfg(target_arch = "x86_64")]
+#[target_feature(enable = "avx2")]
+fn avx2<K: Kernel>(kernel: K) -> K::Output {
+    kernel.run()
+}
+
+#[cfg(target_arch = "x86_64")]
+#[target_feature(enable = "avx2,avx512f,avx512dq,avx512vl")]
+fn avx512<K: Kernel>(kernel: K) -> K::Output {
     kernel.run()
 }

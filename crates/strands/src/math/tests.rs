@@ -146,3 +146,62 @@ fn lu_solves_and_knows_the_sign_of_the_determinant() {
     }
     assert!(lu([[1.0, 2.0], [2.0, 4.0]]).is_none());
 }
+
+#[cfg(target_arch = "x86_64")]
+mod packed_vectors {
+    use super::*;
+
+    /// Every operation of a vector, its results as bits.
+    struct EveryOperation<V> {
+        vectors: [Vec3; 4],
+        k: f64,
+        kind: core::marker::PhantomData<V>,
+    }
+
+    impl<V: Vector<Number = f64>> Kernel for EveryOperation<V> {
+        type Output = Vec<[u64; 3]>;
+
+        #[inline(always)]
+        fn run(self) -> Self::Output {
+            let [a, b, c, d] = self.vectors;
+            let (a, b, c, d) = (V::splat(a), V::splat(b), V::splat(c), V::new(d.x, d.y, d.z));
+            let (mut sum, mut difference) = (a, a);
+            sum += b;
+            difference -= b;
+            let [x, y, z] = a.spread();
+            let results = [
+                a + b,
+                a - b,
+                -a,
+                a * self.k,
+                sum,
+                difference,
+                V::zero(),
+                a.cross(b),
+                a.scale(b),
+                x,
+                y,
+                z,
+                d.dots([a, b, c]),
+                V::new(a.dot(b), c.size(), d.dot(d)),
+            ];
+            results.iter().map(|v| v.parts().map(f64::to_bits)).collect()
+        }
+    }
+
+    proptest! {
+        #[test]
+        fn packed_vectors_give_the_bits_of_single_numbers(
+            parts in prop::array::uniform4(prop::array::uniform3(-10.0..10.0f64)),
+            k in -10.0..10.0f64,
+        ) {
+            let vectors = parts.map(|[x, y, z]| Vec3::new(x, y, z));
+            let single = EveryOperation::<Vec3> { vectors, k, kind: core::marker::PhantomData }.run();
+            let packed = with_avx2(EveryOperation::<Packed> { vectors, k, kind: core::marker::PhantomData });
+            // A machine without AVX2 has no packed vectors to test.
+            if let Some(packed) = packed {
+                prop_assert_eq!(single, packed);
+            }
+        }
+    }
+}

@@ -120,12 +120,6 @@ impl<R: Real> Vec3<R> {
     pub fn scale(self, other: Self) -> Self {
         Self::new(self.x * other.x, self.y * other.y, self.z * other.z)
     }
-
-    /// `yes` where the mask is set, `no` elsewhere.
-    #[inline(always)]
-    pub fn select(mask: R::Mask, yes: Self, no: Self) -> Self {
-        Self::new(R::select(mask, yes.x, no.x), R::select(mask, yes.y, no.y), R::select(mask, yes.z, no.z))
-    }
 }
 
 impl<R: Real> Add for Vec3<R> {

@@ -1,33 +1,33 @@
 //! Pairs of an angular and a linear part: strains `(u, v)`, stresses `(m, n)`, wrenches, and variations of a frame.
 
-use super::{Real, Vec3};
+use super::{Vec3, Vector};
 use core::ops::{Add, AddAssign, Mul, Neg, Sub, SubAssign};
 
 /// An angular and a linear vector, angular part first.
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[repr(C)]
-pub struct Vec6<R = f64> {
+pub struct Vec6<V = Vec3> {
     /// Curvature and twist `u`, moment `m`, or turn.
-    pub angular: Vec3<R>,
+    pub angular: V,
     /// Stretch and shear `v`, force `n`, or shift.
-    pub linear: Vec3<R>,
+    pub linear: V,
 }
 
 /// Strain `ε = (u, v)` in the material frame: `u = (κ1, κ2, τ)` in 1/m, `v` dimensionless.
-pub type Strain<R = f64> = Vec6<R>;
+pub type Strain<V = Vec3> = Vec6<V>;
 /// Stress `σ = (m, n)` in the material frame, N·m and N: what the part beyond exerts on the part before.
-pub type Stress<R = f64> = Vec6<R>;
+pub type Stress<V = Vec3> = Vec6<V>;
 /// A moment and a force, N·m and N.
-pub type Wrench<R = f64> = Vec6<R>;
+pub type Wrench<V = Vec3> = Vec6<V>;
 
-impl Vec6<f64> {
+impl Vec6 {
     /// All zero.
     pub const ZERO: Self = Self::new(Vec3::ZERO, Vec3::ZERO);
 
     /// The same in every lane.
     #[inline(always)]
-    pub fn splat<R: Real>(self) -> Vec6<R> {
-        Vec6::new(self.angular.splat(), self.linear.splat())
+    pub fn splat<V: Vector>(self) -> Vec6<V> {
+        Vec6::new(V::splat(self.angular), V::splat(self.linear))
     }
 
     /// The components, angular first.
@@ -46,30 +46,30 @@ impl Vec6<f64> {
     }
 }
 
-impl From<[f64; 6]> for Vec6<f64> {
+impl From<[f64; 6]> for Vec6 {
     fn from(a: [f64; 6]) -> Self {
         Self::new(Vec3::new(a[0], a[1], a[2]), Vec3::new(a[3], a[4], a[5]))
     }
 }
 
-impl<R> Vec6<R> {
+impl<V> Vec6<V> {
     /// A pair from its parts.
     #[inline(always)]
-    pub const fn new(angular: Vec3<R>, linear: Vec3<R>) -> Self {
+    pub const fn new(angular: V, linear: V) -> Self {
         Self { angular, linear }
     }
 }
 
-impl<R: Real> Vec6<R> {
+impl<V: Vector> Vec6<V> {
     /// All zero.
     #[inline(always)]
     pub fn zero() -> Self {
-        Self::new(Vec3::zero(), Vec3::zero())
+        Self::new(V::zero(), V::zero())
     }
 
     /// Scalar product.
     #[inline(always)]
-    pub fn dot(self, o: Self) -> R {
+    pub fn dot(self, o: Self) -> V::Number {
         self.angular.dot(o.angular) + self.linear.dot(o.linear)
     }
 
@@ -94,15 +94,9 @@ impl<R: Real> Vec6<R> {
             self.angular.cross(wrench.linear),
         )
     }
-
-    /// `yes` where the mask is set, `no` elsewhere.
-    #[inline(always)]
-    pub fn select(mask: R::Mask, yes: Self, no: Self) -> Self {
-        Self::new(Vec3::select(mask, yes.angular, no.angular), Vec3::select(mask, yes.linear, no.linear))
-    }
 }
 
-impl<R: Real> Add for Vec6<R> {
+impl<V: Vector> Add for Vec6<V> {
     type Output = Self;
     #[inline(always)]
     fn add(self, o: Self) -> Self {
@@ -110,7 +104,7 @@ impl<R: Real> Add for Vec6<R> {
     }
 }
 
-impl<R: Real> Sub for Vec6<R> {
+impl<V: Vector> Sub for Vec6<V> {
     type Output = Self;
     #[inline(always)]
     fn sub(self, o: Self) -> Self {
@@ -118,15 +112,15 @@ impl<R: Real> Sub for Vec6<R> {
     }
 }
 
-impl<R: Real> Mul<R> for Vec6<R> {
+impl<V: Vector> Mul<V::Number> for Vec6<V> {
     type Output = Self;
     #[inline(always)]
-    fn mul(self, k: R) -> Self {
+    fn mul(self, k: V::Number) -> Self {
         Self::new(self.angular * k, self.linear * k)
     }
 }
 
-impl<R: Real> Neg for Vec6<R> {
+impl<V: Vector> Neg for Vec6<V> {
     type Output = Self;
     #[inline(always)]
     fn neg(self) -> Self {
@@ -134,14 +128,14 @@ impl<R: Real> Neg for Vec6<R> {
     }
 }
 
-impl<R: Real> AddAssign for Vec6<R> {
+impl<V: Vector> AddAssign for Vec6<V> {
     #[inline(always)]
     fn add_assign(&mut self, o: Self) {
         *self = *self + o;
     }
 }
 
-impl<R: Real> SubAssign for Vec6<R> {
+impl<V: Vector> SubAssign for Vec6<V> {
     #[inline(always)]
     fn sub_assign(&mut self, o: Self) {
         *self = *self - o;

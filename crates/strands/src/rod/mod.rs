@@ -17,7 +17,7 @@ pub use rest::{RestCurve, RestShape};
 pub use section::Section;
 
 use crate::element::DiagonalPoint;
-use crate::math::{Pose, Strain, Vec3, Vec6};
+use crate::math::{Pose, Strain, Vec3};
 
 /// Which strains are free.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
@@ -210,7 +210,14 @@ impl Rod {
                 points.push(Point { rest, law: description.at(s, middle).0 });
             }
         }
-        let diagonal = points.iter().map(|point| diagonal_point(description.kinematics, point)).collect();
+        let per_element = order.places().len();
+        let diagonal = (points.iter().enumerate())
+            .map(|(i, point)| {
+                let e = i / per_element;
+                let h = mesh.nodes()[e + 1] - mesh.nodes()[e];
+                DiagonalPoint::new(description.kinematics, h, point)
+            })
+            .collect();
         let mut node_mass = vec![0.0; mesh.nodes().len()];
         mesh.distribute(order, 0.0, description.length, |node, s, towards, weight| {
             node_mass[node] += weight * description.at(s, towards).1;
@@ -305,19 +312,6 @@ impl Rod {
     pub fn scale(&self) -> Scale {
         self.scale
     }
-}
-
-fn diagonal_point(kinematics: Kinematics, point: &Point) -> Option<DiagonalPoint> {
-    let Law::Diagonal(stiffness) = &point.law else {
-        return None;
-    };
-    let c = stiffness.to_diagonal();
-    let inverse = |v: Vec3| Vec3::new(1.0 / v.x, 1.0 / v.y, 1.0 / v.z);
-    let linear = match kinematics {
-        Kinematics::Cosserat => inverse(c.linear),
-        Kinematics::Kirchhoff => Vec3::ZERO,
-    };
-    Some(DiagonalPoint { compliance: Vec6::new(inverse(c.angular), linear), rest: point.rest })
 }
 
 #[cfg(test)]

@@ -5,21 +5,24 @@
 //! loads need the frame only where they act, which the march has. One pass, O(N), no allocation.
 
 use crate::element::{
-    self, DiagonalPoint, First, Fourth, LocalSolver, Multistep, PointStrains, Second, Straight, exponent,
+    self, DiagonalPoint, First, Fourth, LocalSolver, Multistep, PointStrains, Second, Solved, exponent,
 };
 use crate::load::NodalLoads;
-use crate::math::{Kernel, Pose, Real, SimdLevel, Strain, Vec3, Vec6, Wrench, dispatch};
-use crate::rod::{Kinematics, Order, Rod};
+use crate::math::{Kernel, Mat3, Pose, Real, SimdLevel, Strain, Vec3, Vec6, Vector, Wrench, dispatch};
+#[cfg(target_arch = "x86_64")]
+use crate::math::{Packed, with_avx2};
+use crate::rod::{Order, Rod};
 
 use super::solution::Scheme;
+use core::marker::PhantomData;
 
 /// A frame and the internal wrench in it.
 #[derive(Clone, Copy, Debug)]
-pub(crate) struct Section<R = f64> {
+pub(crate) struct Section<V = Vec3> {
     /// The frame.
-    pub pose: Pose<R>,
+    pub pose: Pose<V>,
     /// The internal wrench: what the part beyond exerts on the part before, in the frame.
-    pub wrench: Wrench<R>,
+    pub wrench: Wrench<V>,
 }
 
 /// What a march leaves behind at each element and node.
@@ -31,8 +34,6 @@ pub(crate) struct Record {
     pub wrenches: Vec<Wrench>,
     /// The strains at each element's points.
     pub strains: Vec<PointStrains>,
-    /// The frame of each element's far node as seen from its near node.
-    pub relative: Vec<Pose>,
 }
 
 impl Record {
@@ -42,38 +43,52 @@ impl Record {
             self.poses.resize(elements + 1, Pose::IDENTITY);
             self.wrenches.resize(elements, Wrench::ZERO);
             self.strains.resize(elements, [Strain::ZERO; 2]);
-            self.relative.resize(elements, Pose::IDENTITY);
         }
     }
 }
 
 /// Watches a march go by.
-trait Watch<R: Real> {
-    fn element(&mut self, element: usize, wrench: Wrench<R>, strains: [&Strain<R>; 2], relative: &Pose<R>);
-    fn node(&mut self, node: usize, pose: &Pose<R>);
+trait Watch<V: Vector> {
+    fn element(&mut self, element: usize, h: f64, wrench: &Wrench<V>, solved: &Solved<V>);
+    fn node(&mut self, node: usize, pose: &Pose<V>);
 }
 
-impl Watch<f64> for Record {
+impl<V: Vector<Number = f64>> Watch<V> for Record {
     #[inline(always)]
-    fn element(&mut self, element: usize, wrench: Wrench, strains: [&Strain; 2], relative: &Pose) {
-        self.wrenches[element] = wrench;
-        self.strains[element] = strains.map(|strain| *strain);
-        self.relative[element] = *relative;
+    fn element(&mut self, element: usize, h: f64, wrench: &Wrench<V>, solved: &Solved<V>) {
+        let per_length = 1.0 / h;
+        self.wrenches[element] = numbers(wrench);
+        let [first, second] = solved.points;
+        self.strains[element] = [numbers(&(first * per_length)), numbers(&(second * per_length))];
     }
     #[inline(always)]
-    fn node(&mut self, node: usize, pose: &Pose) {
-        self.poses[node] = *pose;
+    fn node(&mut self, node: usize, pose: &Pose<V>) {
+        self.poses[node] = plain(pose);
+    }
+}
+
+#[inline(always)]
+fn numbers<V: Vector<Number = f64>>(pair: &Vec6<V>) -> Vec6 {
+    Vec6::new(pair.angular.parts().into(), pair.linear.parts().into())
+}
+
+#[inline(always)]
+fn plain<V: Vector<Number = f64>>(pose: &Pose<V>) -> Pose {
+    let [a, b, c] = pose.rotation.cols;
+    Pose {
+        rotation: Mat3::from_cols(a.parts().into(), b.parts().into(), c.parts().into()),
+        position: pose.position.parts().into(),
     }
 }
 
 /// Keeps nothing.
 struct Blind;
 
-impl<R: Real> Watch<R> for Blind {
+impl<V: Vector> Watch<V> for Blind {
     #[inline(always)]
-    fn element(&mut self, _: usize, _: Wrench<R>, _: [&Strain<R>; 2], _: &Pose<R>) {}
+    fn element(&mut self, _: usize, _: f64, _: &Wrench<V>, _: &Solved<V>) {}
     #[inline(always)]
-    fn node(&mut self, _: usize, _: &Pose<R>) {}
+    fn node(&mut self, _: usize, _: &Pose<V>) {}
 }
 
 /// Marches from the end to the start of a rod and records the way. Gives the section at the start, before the first node's loads.
@@ -86,10 +101,17 @@ pub(crate) fn march(
     record: &mut Record,
 ) -> Section {
     record.fit(rod.elements());
-    match rod.diagonal_points() {
-        Some(points) => diagonal(level, rod, points, scheme, loads, end, record),
-        None => general(rod, scheme, loads, end, record),
+    let Some(points) = rod.diagonal_points() else {
+        return general(rod, scheme, loads, end, record);
+    };
+    let way = Way { rod, points, scheme, loads };
+    #[cfg(target_arch = "x86_64")]
+    if level != SimdLevel::Baseline
+        && let Some(start) = with_avx2(Single::<Packed> { way, end, record, vector: PhantomData })
+    {
+        return start;
     }
+    dispatch(level, Single::<Vec3> { way, end, record, vector: PhantomData })
 }
 
 /// Marches from several ends at once, one a lane, and keeps only where they arrive. `None` where the rod's law is not diagonal.
@@ -98,76 +120,99 @@ pub(crate) fn march_lanes<R: Real>(
     rod: &Rod,
     scheme: Scheme,
     loads: &NodalLoads,
-    end: Section<R>,
-) -> Option<Section<R>> {
-    Some(diagonal(level, rod, rod.diagonal_points()?, scheme, loads, end, &mut Blind))
+    end: Section<Vec3<R>>,
+) -> Option<Section<Vec3<R>>> {
+    let way = Way { rod, points: rod.diagonal_points()?, scheme, loads };
+    Some(dispatch(level, InLanes { way, end }))
 }
 
-#[inline]
-fn diagonal<R: Real, W: Watch<R>>(
-    level: SimdLevel,
-    rod: &Rod,
-    points: &[DiagonalPoint],
-    scheme: Scheme,
-    loads: &NodalLoads,
-    end: Section<R>,
-    watch: &mut W,
-) -> Section<R> {
-    macro_rules! with {
-        ($solver:ty) => {
-            dispatch(
-                level,
-                DiagonalMarch { rod, points, loads, end, watch, solver: <$solver as LocalSolver<R>>::new() },
-            )
-        };
-    }
-    match (scheme, rod.order(), rod.kinematics()) {
-        (Scheme::Multistep, _, _) => with!(Multistep<R>),
-        (Scheme::Element, Order::First, _) => with!(First),
-        (Scheme::Element, Order::Second, Kinematics::Kirchhoff) => with!(Second<R, Straight<R>>),
-        (Scheme::Element, Order::Second, Kinematics::Cosserat) => with!(Second<R, Vec3<R>>),
-        (Scheme::Element, Order::Fourth, _) => with!(Fourth<R>),
-    }
+/// One rod's march, its vectors of kind `V`, recorded.
+struct Single<'a, V> {
+    way: Way<'a>,
+    end: Section,
+    record: &'a mut Record,
+    vector: PhantomData<V>,
 }
 
-/// The march for diagonal laws.
-struct DiagonalMarch<'a, R: Real, W, S> {
-    rod: &'a Rod,
-    points: &'a [DiagonalPoint],
-    loads: &'a NodalLoads,
-    end: Section<R>,
-    watch: &'a mut W,
-    solver: S,
-}
-
-impl<R: Real, W: Watch<R>, S: LocalSolver<R>> Kernel for DiagonalMarch<'_, R, W, S> {
-    type Output = Section<R>;
+impl<V: Vector<Number = f64>> Kernel for Single<'_, V> {
+    type Output = Section;
 
     #[inline(always)]
-    fn run(self) -> Section<R> {
-        let Self { rod, points, loads, end, watch, mut solver } = self;
-        let nodes = rod.mesh().nodes();
-        let inner = 1..rod.elements();
-        let any = |loads: &[Wrench]| loads[inner.clone()].iter().any(|load| *load != Wrench::ZERO);
-        let (any_body, any_world) = (any(&loads.body), any(&loads.world));
+    fn run(self) -> Section {
+        let end = Section { pose: self.end.pose.splat::<V>(), wrench: self.end.wrench.splat() };
+        let start = self.way.march(end, self.record);
+        Section { pose: plain(&start.pose), wrench: numbers(&start.wrench) }
+    }
+}
+
+/// A march in lanes.
+struct InLanes<'a, V> {
+    way: Way<'a>,
+    end: Section<V>,
+}
+
+impl<V: Vector> Kernel for InLanes<'_, V> {
+    type Output = Section<V>;
+
+    #[inline(always)]
+    fn run(self) -> Section<V> {
+        self.way.march(self.end, &mut Blind)
+    }
+}
+
+/// A rod with a diagonal law and its loads.
+#[derive(Clone, Copy)]
+struct Way<'a> {
+    rod: &'a Rod,
+    points: &'a [DiagonalPoint],
+    scheme: Scheme,
+    loads: &'a NodalLoads,
+}
+
+impl Way<'_> {
+    #[inline(always)]
+    fn march<V: Vector, W: Watch<V>>(&self, end: Section<V>, watch: &mut W) -> Section<V> {
+        match (self.scheme, self.rod.order()) {
+            (Scheme::Multistep, _) => self.along(Multistep::<V>::new(), end, watch),
+            (Scheme::Element, Order::First) => self.along(<First as LocalSolver<V>>::new(), end, watch),
+            (Scheme::Element, Order::Second) => self.along(Second::<V>::new(), end, watch),
+            (Scheme::Element, Order::Fourth) => self.along(Fourth::<V>::new(), end, watch),
+        }
+    }
+
+    #[inline(always)]
+    fn along<V: Vector, S: LocalSolver<V>, W: Watch<V>>(
+        &self,
+        mut solver: S,
+        end: Section<V>,
+        watch: &mut W,
+    ) -> Section<V> {
+        let (elements, nodes) = (self.rod.elements(), self.rod.mesh().nodes());
+        let any = |loads: &[Wrench]| loads[1..elements].iter().any(acts);
+        let (any_body, any_world) = (any(&self.loads.body), any(&self.loads.world));
         let Section { mut pose, mut wrench } = end;
-        watch.node(rod.elements(), &pose);
-        for e in (0..rod.elements()).rev() {
+        watch.node(elements, &pose);
+        for e in (0..elements).rev() {
             let h = nodes[e + 1] - nodes[e];
-            let solved = solver.next(h, &points[e * S::POINTS..(e + 1) * S::POINTS], wrench);
-            watch.element(e, wrench, [&solved.strain, &solved.second], &solved.relative);
-            wrench = solved.relative.carry_wrench(wrench);
-            pose = step_back(&pose, &solved.relative);
+            let solved = solver.next(&self.points[e * S::POINTS..(e + 1) * S::POINTS], h, &wrench);
+            watch.element(e, h, &wrench, &solved);
+            wrench = solved.carry(&wrench);
+            pose = pose.before(&solved.exponent, solved.t, &solved.coefficients);
             watch.node(e, &pose);
             if any_world && e > 0 {
-                wrench += turned(&pose, loads.world[e].splat());
+                wrench += turned(&pose, self.loads.world[e].splat());
             }
             if any_body && e > 0 {
-                wrench += loads.body[e].splat();
+                wrench += self.loads.body[e].splat();
             }
         }
         Section { pose, wrench }
     }
+}
+
+/// Whether a load is not zero; without a branch for each number.
+fn acts(load: &Wrench) -> bool {
+    load.to_array().iter().fold(0, |bits, x| bits | (x.to_bits() << 1)) != 0
 }
 
 /// The same for any law, in plain numbers, each element by Newton's method.
@@ -176,7 +221,7 @@ fn general(rod: &Rod, scheme: Scheme, loads: &NodalLoads, end: Section, record: 
     let Section { mut pose, mut wrench } = end;
     // Elastic strains of the last two elements.
     let mut last = [[Strain::ZERO; 2]; 2];
-    record.node(rod.elements(), &pose);
+    record.poses[rod.elements()] = pose;
     for e in (0..rod.elements()).rev() {
         let h = nodes[e + 1] - nodes[e];
         let points = rod.points(e);
@@ -193,10 +238,10 @@ fn general(rod: &Rod, scheme: Scheme, loads: &NodalLoads, end: Section, record: 
             .unwrap_or([Vec6::from([f64::NAN; 6]); 2]);
         last = [core::array::from_fn(|i| strain[i] - rest[i]), last[0]];
         let relative = Pose::exp(exponent(rod.order(), h, &strain));
-        record.element(e, wrench, [&strain[0], &strain[1]], &relative);
+        (record.wrenches[e], record.strains[e]) = (wrench, strain);
         wrench = relative.carry_wrench(wrench);
-        pose = step_back(&pose, &relative);
-        record.node(e, &pose);
+        pose = pose.compose(&relative.inverse());
+        record.poses[e] = pose;
         if e > 0 {
             wrench += loads.body[e] + turned(&pose, loads.world[e]);
         }
@@ -204,15 +249,8 @@ fn general(rod: &Rod, scheme: Scheme, loads: &NodalLoads, end: Section, record: 
     Section { pose, wrench }
 }
 
-/// The frame from which `relative` leads to `pose`.
-#[inline(always)]
-fn step_back<R: Real>(pose: &Pose<R>, relative: &Pose<R>) -> Pose<R> {
-    let rotation = pose.rotation * relative.rotation.transpose();
-    Pose { rotation, position: pose.position - rotation * relative.position }
-}
-
 /// A wrench in world axes, in those of a frame.
 #[inline(always)]
-pub(crate) fn turned<R: Real>(pose: &Pose<R>, world: Wrench<R>) -> Wrench<R> {
+pub(crate) fn turned<V: Vector>(pose: &Pose<V>, world: Wrench<V>) -> Wrench<V> {
     Wrench::new(pose.rotation.transpose_mul(world.angular), pose.rotation.transpose_mul(world.linear))
 }

@@ -1,28 +1,34 @@
 //! The variational sweep: how a march answers to small changes of its end, by the linearised recurrence.
 //!
-//! With `g` the frame of an element's far node from its near one, `w` the wrench through its far node and `G` its flexibility,
+//! Between nodes the wrench and the variations of frame and wrench are constant when they are seen from one fixed frame, so the sweep
+//! goes in the axes of the world, about the rod's start. With `G` an element's flexibility and `w` the wrench that it carries, both seen so,
 //!
 //! ```text
-//! ξ = G δw_b,   δη_a = Ad_g (δη_b − ξ),   δw_a = Ad_g⁻ᵀ (δw_b + ad*(ξ) w),
+//! ξ = G δw,   δη_a = δη_b − ξ,   δw_a = δw_b + ad*(ξ) w,
 //! ```
 //!
-//! and a dead load `l` (in the node's axes) adds `l × δθ`. The columns are the lanes of one vector, or go one after the other; the numbers are the same.
+//! and a dead load `l` at a node adds `l × δθ`. The flexibilities of several elements do not depend on one another, and are formed side by
+//! side in lanes; then the columns go past these elements, side by side in lanes too, or one after the other. The numbers are the same.
 
 use super::march::{Record, turned};
-use crate::element::{self, DiagonalFlexibility};
+use crate::element::{self, DiagonalPoint, diagonal_flexibility};
 use crate::load::NodalLoads;
-use crate::math::{Kernel, Lanes, Mat3, Mat6, Real, SimdLevel, Vec3, Vec6, Wrench, dispatch};
-use crate::rod::{Kinematics, Order, Rod};
+use crate::math::{Kernel, Lanes, Mat3, Pose, SimdLevel, Vec3, Vec6, Vector, Wrench, dispatch};
+use crate::rod::{Order, Rod};
 
-/// A variation of a section: of its frame (body axes) and of its wrench (body axes).
+/// A variation of a section: of its frame and of its wrench in it; both in body axes, or both seen from the start.
 #[derive(Clone, Copy, Debug)]
-pub(crate) struct Variation<R = f64> {
-    pub frame: Vec6<R>,
-    pub wrench: Wrench<R>,
+pub(crate) struct Variation<V = Vec3> {
+    pub frame: Vec6<V>,
+    pub wrench: Wrench<V>,
 }
 
 /// Six columns, one for each unknown of the end.
 pub(crate) type Columns = [Variation; 6];
+
+/// How many elements' flexibilities are formed side by side, and room for the six columns.
+const BATCH: usize = 8;
+type Side = Vec3<Lanes<BATCH>>;
 
 /// Carries the columns from the end to the start of a rod along a recorded march, all at once in lanes, or one by one. `None` where an
 /// element's law is singular there.
@@ -34,119 +40,210 @@ pub(crate) fn vary(
     columns: &Columns,
     in_lanes: bool,
 ) -> Option<Columns> {
-    if in_lanes {
-        let lane = |column: usize, pick: &dyn Fn(&Variation) -> f64| {
-            if column < 6 { pick(&columns[column]) } else { 0.0 }
-        };
-        let gather = |pick: &dyn Fn(&Variation) -> f64| Lanes::<8>::from_fn(|i| lane(i, pick));
-        let vector = |pick: &dyn Fn(&Variation) -> Vec3| {
-            Vec3::new(gather(&|v| pick(v).x), gather(&|v| pick(v).y), gather(&|v| pick(v).z))
-        };
-        let packed = Variation {
-            frame: Vec6::new(vector(&|v| v.frame.angular), vector(&|v| v.frame.linear)),
-            wrench: Vec6::new(vector(&|v| v.wrench.angular), vector(&|v| v.wrench.linear)),
-        };
-        let out = sweep::<Lanes<8>>(level, rod, loads, record, packed)?;
-        let scatter = |v: Vec3<Lanes<8>>, i: usize| Vec3::new(v.x.0[i], v.y.0[i], v.z.0[i]);
-        let part = |v: Vec6<Lanes<8>>, i: usize| Vec6::new(scatter(v.angular, i), scatter(v.linear, i));
-        return Some(core::array::from_fn(|i| Variation {
-            frame: part(out.frame, i),
-            wrench: part(out.wrench, i),
-        }));
-    }
-    let mut out = *columns;
-    for column in &mut out {
-        *column = sweep::<f64>(level, rod, loads, record, *column)?;
-    }
-    Some(out)
-}
-
-#[inline]
-fn sweep<R: Real>(
-    level: SimdLevel,
-    rod: &Rod,
-    loads: &NodalLoads,
-    record: &Record,
-    columns: Variation<R>,
-) -> Option<Variation<R>> {
-    let diagonal = if rod.order() == Order::Second { rod.diagonal_points() } else { None };
-    if diagonal.is_none() {
-        return general(rod, loads, record, columns);
-    }
-    let out = match rod.kinematics() {
-        Kinematics::Kirchhoff => dispatch(level, DiagonalSweep::<R, true> { rod, loads, record, columns }),
-        Kinematics::Cosserat => dispatch(level, DiagonalSweep::<R, false> { rod, loads, record, columns }),
+    let origin = record.poses[0].position;
+    let seen = |node: usize| {
+        let pose = record.poses[node];
+        Pose { rotation: pose.rotation, position: pose.position - origin }
     };
-    Some(out)
+    let end = seen(rod.elements());
+    let columns = columns.map(|column| Variation {
+        frame: end.adjoint(column.frame),
+        wrench: end.carry_wrench(column.wrench),
+    });
+    let way = Way { rod, loads, record, origin };
+    let columns = if in_lanes {
+        let [packed] = dispatch(level, Sweep { way, columns: [into_lanes(&columns)] })?;
+        out_of_lanes(&packed)
+    } else {
+        dispatch(level, Sweep { way, columns })?
+    };
+    let start = seen(0).inverse();
+    Some(columns.map(|column| Variation {
+        frame: start.adjoint(column.frame),
+        wrench: start.carry_wrench(column.wrench),
+    }))
 }
 
-/// The sweep for order 2 and diagonal laws: the hot path.
-struct DiagonalSweep<'a, R, const KIRCHHOFF: bool> {
+fn into_lanes(columns: &Columns) -> Variation<Side> {
+    let mut packed = Variation { frame: Vec6::zero(), wrench: Vec6::zero() };
+    for (i, column) in columns.iter().enumerate() {
+        put_pair(&mut packed.frame, i, column.frame);
+        put_pair(&mut packed.wrench, i, column.wrench);
+    }
+    packed
+}
+
+fn out_of_lanes(packed: &Variation<Side>) -> Columns {
+    core::array::from_fn(|i| Variation { frame: pair(&packed.frame, i), wrench: pair(&packed.wrench, i) })
+}
+
+#[inline(always)]
+fn put(side: &mut Side, i: usize, v: Vec3) {
+    (side.x.0[i], side.y.0[i], side.z.0[i]) = (v.x, v.y, v.z);
+}
+
+#[inline(always)]
+fn put_pair(side: &mut Vec6<Side>, i: usize, v: Vec6) {
+    put(&mut side.angular, i, v.angular);
+    put(&mut side.linear, i, v.linear);
+}
+
+#[inline(always)]
+fn one(v: &Side, i: usize) -> Vec3 {
+    Vec3::new(v.x.0[i], v.y.0[i], v.z.0[i])
+}
+
+#[inline(always)]
+fn pair(v: &Vec6<Side>, i: usize) -> Vec6 {
+    Vec6::new(one(&v.angular, i), one(&v.linear, i))
+}
+
+/// A recorded march, seen from its start.
+#[derive(Clone, Copy)]
+struct Way<'a> {
     rod: &'a Rod,
     loads: &'a NodalLoads,
     record: &'a Record,
-    columns: Variation<R>,
+    origin: Vec3,
 }
 
-impl<R: Real, const KIRCHHOFF: bool> Kernel for DiagonalSweep<'_, R, KIRCHHOFF> {
-    type Output = Variation<R>;
+/// An element on the way: its flexibility and the wrench that it carries, both seen from the start.
+struct Yielding {
+    flexibility: [[Mat3; 2]; 2],
+    wrench: Wrench,
+}
 
+/// The elements of a batch, side by side.
+struct Batch {
+    flexibility: [[Mat3<Side>; 2]; 2],
+    wrench: Wrench<Side>,
+}
+
+impl Batch {
     #[inline(always)]
-    fn run(self) -> Variation<R> {
-        let Self { rod, loads, record, mut columns } = self;
-        let points = rod.diagonal_points().unwrap_or(&[]);
-        let nodes = rod.mesh().nodes();
-        for e in (0..rod.elements()).rev() {
-            let wrench = record.wrenches[e];
-            let h = nodes[e + 1] - nodes[e];
-            let flexibility =
-                element::diagonal_flexibility::<KIRCHHOFF>(h, &points[e], wrench, &record.strains[e][0]);
-            let yielded = apply::<R, KIRCHHOFF>(&flexibility, columns.wrench);
-            columns = carry(record, loads, e, wrench, columns, yielded);
+    fn element(&self, i: usize) -> Yielding {
+        let [[a, b], [c, d]] = &self.flexibility;
+        Yielding {
+            flexibility: [[block(a, i), block(b, i)], [block(c, i), block(d, i)]],
+            wrench: pair(&self.wrench, i),
         }
-        columns
     }
 }
 
-/// `T · inner · Tᵀ δw`.
 #[inline(always)]
-fn apply<R: Real, const KIRCHHOFF: bool>(f: &DiagonalFlexibility, dw: Wrench<R>) -> Vec6<R> {
-    let moment = transpose_mul(&f.turn, dw.angular) + transpose_mul(&f.shift, dw.linear);
-    let (bend, stretch) = if KIRCHHOFF {
-        (mul(&f.a, moment), Vec3::zero())
-    } else {
-        let force = transpose_mul(&f.turn, dw.linear);
-        let bend = mul(&f.a, moment) + mul(&f.b, force);
-        (bend, f.stretch.splat().scale(force) + mul(&f.c, bend))
-    };
-    let linear = mul(&f.shift, bend);
-    Vec6::new(mul(&f.turn, bend), if KIRCHHOFF { linear } else { linear + mul(&f.turn, stretch) })
+fn block(block: &Mat3<Side>, i: usize) -> Mat3 {
+    let [a, b, c] = &block.cols;
+    Mat3::from_cols(one(a, i), one(b, i), one(c, i))
 }
 
-#[inline(always)]
-fn mul<R: Real>(m: &Mat3, v: Vec3<R>) -> Vec3<R> {
-    m.splat::<R>() * v
+impl Way<'_> {
+    /// The elements `last, last − 1, …` of a rod of order 2 with a diagonal law; past the first element they repeat it.
+    #[inline(always)]
+    fn batch(&self, points: &[DiagonalPoint], last: usize) -> Batch {
+        let (record, nodes) = (self.record, self.rod.mesh().nodes());
+        let [mut compliance, mut x, mut wrench] = [Vec6::<Side>::zero(); 3];
+        let mut far = Pose { rotation: Mat3 { cols: [Side::zero(); 3] }, position: Side::zero() };
+        for i in 0..BATCH {
+            let e = last.saturating_sub(i);
+            put_pair(&mut compliance, i, points[e].compliance);
+            put_pair(&mut x, i, record.strains[e][0] * (nodes[e + 1] - nodes[e]));
+            put_pair(&mut wrench, i, record.wrenches[e]);
+            let pose = &record.poses[e + 1];
+            put(&mut far.rotation.cols[0], i, pose.rotation.cols[0]);
+            put(&mut far.rotation.cols[1], i, pose.rotation.cols[1]);
+            put(&mut far.rotation.cols[2], i, pose.rotation.cols[2]);
+            put(&mut far.position, i, pose.position - self.origin);
+        }
+        let flexibility = diagonal_flexibility(compliance, x, wrench).seen_from(&far);
+        Batch { flexibility: flexibility.blocks(), wrench: far.carry_wrench(wrench) }
+    }
+
+    /// An element of any order and law.
+    fn general(&self, e: usize) -> Option<Yielding> {
+        let (rod, record) = (self.rod, self.record);
+        let wrench = record.wrenches[e];
+        let body = element::flexibility_of(rod, e, wrench, &record.strains[e], rod.order())?;
+        let far = record.poses[e + 1];
+        let far = Pose { rotation: far.rotation, position: far.position - self.origin };
+        let adjoint = far.adjoint_matrix();
+        let flexibility = adjoint.mul(&body).mul(&adjoint.transpose()).blocks;
+        Some(Yielding { flexibility, wrench: far.carry_wrench(wrench) })
+    }
+
+    /// Takes a variation past an element and the load on its near node.
+    #[inline(always)]
+    fn pass<V: Vector>(&self, e: usize, element: &Yielding, at: Variation<V>) -> Variation<V> {
+        let [[a, b], [c, d]] = &element.flexibility;
+        let (moment, force) = (at.wrench.angular, at.wrench.linear);
+        let yielded = Vec6::new(
+            a.splat::<V>() * moment + b.splat::<V>() * force,
+            c.splat::<V>() * moment + d.splat::<V>() * force,
+        );
+        let frame = at.frame - yielded;
+        let mut wrench = at.wrench + yielded.coadjoint(element.wrench.splat());
+        let load = &self.loads.world[e];
+        if e > 0 && load.linear != Vec3::ZERO {
+            let change = V::splat(load.linear).cross(frame.angular);
+            wrench.linear += change;
+            wrench.angular += V::splat(self.record.poses[e].position - self.origin).cross(change);
+        }
+        if e > 0 && load.angular != Vec3::ZERO {
+            wrench.angular += V::splat(load.angular).cross(frame.angular);
+        }
+        Variation { frame, wrench }
+    }
 }
 
-#[inline(always)]
-fn transpose_mul<R: Real>(m: &Mat3, v: Vec3<R>) -> Vec3<R> {
-    m.splat::<R>().transpose_mul(v)
+struct Sweep<'a, V, const N: usize> {
+    way: Way<'a>,
+    columns: [Variation<V>; N],
 }
 
-/// Takes the columns from the far to the near node of an element that yields by `xi`, and past the near node's loads.
-#[inline(always)]
-pub(crate) fn carry<R: Real>(
+impl<V: Vector, const N: usize> Kernel for Sweep<'_, V, N> {
+    type Output = Option<[Variation<V>; N]>;
+
+    #[inline(always)]
+    fn run(self) -> Self::Output {
+        let Self { way, mut columns } = self;
+        let rod = way.rod;
+        let points = if rod.order() == Order::Second { rod.diagonal_points() } else { None };
+        let Some(points) = points else {
+            for e in (0..rod.elements()).rev() {
+                let element = way.general(e)?;
+                for column in &mut columns {
+                    *column = way.pass(e, &element, *column);
+                }
+            }
+            return Some(columns);
+        };
+        let mut left = rod.elements();
+        while left > 0 {
+            let batch = way.batch(points, left - 1);
+            let here = left.min(BATCH);
+            for i in 0..here {
+                let element = batch.element(i);
+                for column in &mut columns {
+                    *column = way.pass(left - 1 - i, &element, *column);
+                }
+            }
+            left -= here;
+        }
+        Some(columns)
+    }
+}
+
+/// Takes a variation, in body axes, from the far to the near node of an element that yields by `xi`, and past the near node's loads.
+pub(crate) fn carry(
     record: &Record,
     loads: &NodalLoads,
     e: usize,
     wrench: Wrench,
-    columns: Variation<R>,
-    xi: Vec6<R>,
-) -> Variation<R> {
-    let relative = record.relative[e].splat::<R>();
-    let frame = relative.adjoint(columns.frame - xi);
-    let mut out =
-        Variation { frame, wrench: relative.carry_wrench(columns.wrench + xi.coadjoint(wrench.splat())) };
+    at: Variation,
+    xi: Vec6,
+) -> Variation {
+    let relative = record.poses[e].between(&record.poses[e + 1]);
+    let frame = relative.adjoint(at.frame - xi);
+    let mut out = Variation { frame, wrench: relative.carry_wrench(at.wrench + xi.coadjoint(wrench)) };
     if e > 0 {
         out.wrench += turned_by(turned(&record.poses[e], loads.world[e]), frame.angular);
     }
@@ -154,28 +251,6 @@ pub(crate) fn carry<R: Real>(
 }
 
 /// How a dead wrench, in the axes of a frame, changes there when the frame turns by `turn`.
-#[inline(always)]
-pub(crate) fn turned_by<R: Real>(load: Wrench, turn: Vec3<R>) -> Wrench<R> {
-    Wrench::new(load.angular.splat().cross(turn), load.linear.splat().cross(turn))
-}
-
-/// The sweep for any order and law.
-fn general<R: Real>(
-    rod: &Rod,
-    loads: &NodalLoads,
-    record: &Record,
-    mut columns: Variation<R>,
-) -> Option<Variation<R>> {
-    for e in (0..rod.elements()).rev() {
-        let wrench = record.wrenches[e];
-        let flexibility = element::flexibility_of(rod, e, wrench, &record.strains[e], rod.order())?;
-        let yielded = mul6(&flexibility, columns.wrench);
-        columns = carry(record, loads, e, wrench, columns, yielded);
-    }
-    Some(columns)
-}
-
-fn mul6<R: Real>(m: &Mat6, v: Vec6<R>) -> Vec6<R> {
-    let [[a, b], [c, d]] = &m.blocks;
-    Vec6::new(mul(a, v.angular) + mul(b, v.linear), mul(c, v.angular) + mul(d, v.linear))
+pub(crate) fn turned_by(load: Wrench, turn: Vec3) -> Wrench {
+    Wrench::new(load.angular.cross(turn), load.linear.cross(turn))
 }
