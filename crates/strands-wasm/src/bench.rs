@@ -62,5 +62,5 @@ fn suture(elements: usize) -> Result<(Problem, Guess), RodError> {
     let wrench = Wrench::new(Vec3::new(1e-7, 0.0, 2e-7), Vec3::new(3e-6, 2e-6, -1e-6));
     let load = PointLoad { at: 0.1, wrench, frame: Frame::Body };
     let loads = NodalLoads::none(&rod).with_point(&rod, &load)?;
-    Ok((Problem { loads, ..Problem::cantilever(rod) }, Guess { pose: Pose::IDENTITY, wrench: Wrench::ZERO }))
+    Ok((Problem { loads, ..Problem::cantilever(rod) }, Guess::new(Pose::IDENTITY, Wrench::ZERO)))
 }

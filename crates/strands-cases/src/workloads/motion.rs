@@ -56,7 +56,7 @@ impl Motion {
         let pose = Pose { rotation: Mat3::IDENTITY, position: Vec3::Z * (part * length) };
         // The tip's frame is the world's, and both ends carry the same moment.
         let force = Vec3::new(-0.5 * weight, 0.0, -thrust);
-        Some((pose, Guess { pose, wrench: Wrench::new(Vec3::Y * moment, force) }))
+        Some((pose, Guess::new(pose, Wrench::new(Vec3::Y * moment, force))))
     }
 }
 

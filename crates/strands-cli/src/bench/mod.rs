@@ -232,7 +232,7 @@ fn repeated(
     solved(&problem, &settings, guess.as_ref(), &mut workspace)?;
     let once = Settings { max_iterations: 0, ..settings };
     let settings = if guess.is_some() { settings } else { once };
-    let start = guess.unwrap_or(Guess { pose: Pose::IDENTITY, wrench: Wrench::ZERO });
+    let start = guess.unwrap_or(Guess::new(Pose::IDENTITY, Wrench::ZERO));
     let mut report = SolveReport::default();
     Ok(Box::new(move || {
         let mut guess = start;

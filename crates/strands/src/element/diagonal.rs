@@ -111,42 +111,66 @@ impl<V: Vector> LocalSolver<V> for First {
     }
 }
 
-/// Room for the six past elements that the extrapolation looks at: a power of two.
-const ROOM: usize = 8;
+/// How many past elements the extrapolation looks at: with more, the round-off in them, which it makes larger by `2^PAST`, would count.
+const PAST: usize = 10;
+/// Room for them: a power of two.
+const ROOM: usize = 16;
+/// The value that a polynomial through `n` past ones takes next, newest first: `(−1)^i n!/((i + 1)! (n − 1 − i)!)`, for each `n`.
+const EXTRAPOLATION: [[f64; PAST]; PAST + 1] = extrapolation();
+
+const fn extrapolation() -> [[f64; PAST]; PAST + 1] {
+    let mut weights = [[0.0; PAST]; PAST + 1];
+    let mut n = 1;
+    while n <= PAST {
+        let (mut weight, mut i) = (-1.0, 0);
+        while i < n {
+            weight *= -((n - i) as f64) / (i + 1) as f64;
+            weights[n][i] = weight;
+            i += 1;
+        }
+        n += 1;
+    }
+    weights
+}
 
 /// What changed slowly over the last elements.
 struct History<V> {
-    past: [Vec6<V>; ROOM],
+    /// A ring, written twice over, so that the past lies in one piece wherever it begins.
+    ring: [Vec6<V>; 2 * ROOM],
     known: usize,
 }
 
 impl<V: Vector> History<V> {
     #[inline(always)]
     fn new() -> Self {
-        Self { past: [Vec6::zero(); ROOM], known: 0 }
+        Self { ring: [Vec6::zero(); 2 * ROOM], known: 0 }
     }
 
-    /// The next one: through the last six, `6a − 15b + 20c − 15d + 6e − f`, or through as many as there are.
+    /// The next one, extrapolated from as many as there are.
     #[inline(always)]
     fn next(&self) -> Vec6<V> {
-        let ago = |i: usize| self.past[self.known.wrapping_sub(1 + i) % ROOM];
+        // The newest of the past lies last.
+        let past = &self.ring[self.known % ROOM + ROOM - PAST..][..PAST];
         let k = V::Number::splat;
-        if self.known >= 6 {
-            return (ago(0) + ago(4)) * k(6.0) - (ago(1) + ago(3)) * k(15.0) + ago(2) * k(20.0) - ago(5);
+        if self.known < PAST {
+            let mut sum = Vec6::zero();
+            for i in 0..self.known {
+                sum += past[PAST - 1 - i] * k(EXTRAPOLATION[self.known][i]);
+            }
+            return sum;
         }
-        match self.known {
-            0 => Vec6::zero(),
-            1 => ago(0),
-            2 => ago(0) * k(2.0) - ago(1),
-            3 => (ago(0) - ago(1)) * k(3.0) + ago(2),
-            4 => (ago(0) + ago(2)) * k(4.0) - ago(1) * k(6.0) - ago(3),
-            _ => (ago(0) - ago(3)) * k(5.0) + (ago(2) - ago(1)) * k(10.0) + ago(4),
-        }
+        // The weights read the same from both sides, but for the oldest; the newest one comes last, as it is known last.
+        let w = &EXTRAPOLATION[PAST];
+        let (far, near) = ((past[3] + past[7]) * k(w[2]), (past[4] + past[6]) * k(w[3]));
+        let older = (past[5] * k(w[4]) + near) + (far - past[0]);
+        (older + (past[2] + past[8]) * k(w[1])) + (past[1] + past[9]) * k(w[0])
     }
 
     #[inline(always)]
     fn push(&mut self, new: Vec6<V>) {
-        self.past[self.known % ROOM] = new;
+        let at = self.known % ROOM;
+        self.ring[at] = new;
+        self.ring[at + ROOM] = new;
         self.known += 1;
     }
 }

@@ -76,11 +76,10 @@ pub fn follow(
 ) -> bool {
     report.restart(Method::Shooting);
     let state = EndState::from_guess(problem, guess);
-    let search = shoot(problem, settings, state, workspace, report);
+    let search = shoot(problem, settings, state, guess.inverse, workspace, report);
     let converged = search.outcome == Outcome::Converged;
     if converged {
-        let section = search.state.section(problem);
-        *guess = Guess { pose: section.pose, wrench: section.wrench };
+        *guess = search.guess(problem);
     }
     converged
 }
@@ -102,7 +101,7 @@ fn find(
     }
     if let Some(guess) = guess {
         let state = EndState::from_guess(problem, guess);
-        let search = shoot(problem, settings, state, workspace, report);
+        let search = shoot(problem, settings, state, guess.inverse, workspace, report);
         if search.outcome == Outcome::Converged {
             return search;
         }
@@ -141,7 +140,7 @@ fn from_rest(
     }
     // No way led to a stable one: the first that converged, evaluated again so that its march is on record.
     let best = best.unwrap_or_else(|| unreachable!("there are four sides"));
-    shoot(problem, settings, best.state.moved(problem), workspace, report)
+    shoot(problem, settings, best.state.moved(problem), best.inverse, workspace, report)
 }
 
 /// Why a problem is not even tried.
@@ -176,7 +175,7 @@ fn nearest(
     let state = EndState::from_guess(problem, &guess);
     let only_look = Settings { max_iterations: 0, ..Settings::default() };
     report.method = Method::Shooting;
-    shoot(problem, &only_look, state, workspace, report)
+    shoot(problem, &only_look, state, None, workspace, report)
 }
 
 fn failure(
@@ -231,14 +230,13 @@ fn solution(problem: &Problem, search: &Search, workspace: &Workspace, report: S
     };
     let held = search.state.reaction(problem);
     let at_end = Reaction { s: rod.length(), force: held.linear, moment: held.angular };
-    let section = search.state.section(problem);
     Solution {
         poses: record.poses.clone(),
         strain,
         stress,
         reactions: [at_start, at_end],
         energy: Energy { elastic, load },
-        guess: Guess { pose: section.pose, wrench: section.wrench },
+        guess: search.guess(problem),
         report,
     }
 }

@@ -34,7 +34,7 @@ pub(crate) fn rest(problem: &Problem, workspace: &mut Workspace) -> Guess {
     let end = Section { pose: Pose::IDENTITY, wrench: Wrench::ZERO };
     let start = march(workspace.simd, &problem.rod, Scheme::Element, &unloaded, end, &mut workspace.record);
     let base = meet(&problem.start, &problem.rod.description().base);
-    Guess { pose: base.compose(&start.pose.inverse()), wrench: Wrench::ZERO }
+    Guess::new(base.compose(&start.pose.inverse()), Wrench::ZERO)
 }
 
 /// Directions for the force across the rod: along the softer and the stiffer side, to and fro.
@@ -95,8 +95,8 @@ pub(crate) fn from_rest(
         if reached.outcome != Outcome::Converged {
             return reached;
         }
-        let section = reached.state.section(stage);
-        from = Guess { pose: section.pose, wrench: section.wrench };
+        // The next stage has other unknowns, and no use for this one's Jacobian.
+        from = Guess { inverse: None, ..reached.guess(stage) };
         search = Some(reached);
     }
     search.unwrap_or_else(|| unreachable!("there are two stages or three"))
@@ -125,7 +125,7 @@ fn walk(
     let mut family = problem.clone();
     set(&mut family, problem, from, change, 0.0);
     let start = EndState::from_guess(&family, from);
-    let mut search = shoot(&family, settings, start, workspace, report);
+    let mut search = shoot(&family, settings, start, from.inverse, workspace, report);
     let (mut at, mut step) = (0.0, FIRST_STEP);
     let smallest = 0.5_f64.powi(i32::try_from(settings.max_halvings).unwrap_or(i32::MAX)) * FIRST_STEP;
     let mut reached = search.state;
@@ -135,7 +135,8 @@ fn walk(
         let next = f64::min(at + step, 1.0);
         set(&mut family, problem, from, change, next);
         let before = report.iterations;
-        let mut tried = shoot(&family, &on_the_way, reached.moved(&family), workspace, report);
+        let mut tried =
+            shoot(&family, &on_the_way, reached.moved(&family), search.inverse, workspace, report);
         report.path_steps += 1;
         if tried.outcome == Outcome::Converged {
             // A step that lost stability has landed on another branch, or passed a place where the rod would snap.

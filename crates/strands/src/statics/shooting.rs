@@ -6,7 +6,7 @@
 use super::boundary::{EndState, residual, residual_slope, unknown_scale};
 use super::march::{Record, Section, march, march_lanes};
 use super::problem::Problem;
-use super::solution::{Jacobian, Scheme, Settings, SolveReport};
+use super::solution::{Guess, Jacobian, Scheme, Settings, SolveReport};
 use super::variation::vary;
 use crate::math::{Lanes, Mat3, Pose, SimdLevel, Vec3, Vec6, lu};
 
@@ -46,7 +46,20 @@ pub(crate) struct Search {
     pub state: EndState,
     pub start: Section,
     pub outcome: Outcome,
+    /// The inverse Jacobian that it ended with.
+    pub inverse: Option<Inverse>,
 }
+
+impl Search {
+    /// What the next search starts from.
+    pub fn guess(&self, problem: &Problem) -> Guess {
+        let section = self.state.section(problem);
+        Guess { inverse: self.inverse, ..Guess::new(section.pose, section.wrench) }
+    }
+}
+
+/// The inverse of the Jacobian of the residual by the unknowns, each over its scale.
+pub(crate) type Inverse = [[f64; 6]; 6];
 
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) enum Outcome {
@@ -54,6 +67,17 @@ pub(crate) enum Outcome {
     Stalled,
     Singular,
     NotFinite,
+}
+
+/// Where the inverse Jacobian at hand comes from.
+#[derive(Clone, Copy, PartialEq, Eq)]
+enum Origin {
+    /// A search before this one.
+    Inherited,
+    /// Formed where the search is.
+    Fresh,
+    /// Kept up since.
+    Updated,
 }
 
 /// One evaluated state.
@@ -64,58 +88,60 @@ struct Point {
     residual: [f64; 6],
 }
 
-/// Searches from a state. Adds to the report what it does; the accepted march is left in the workspace's record.
+/// Searches from a state, with the inverse Jacobian of a search nearby where there is one. Adds to the report what it does; the accepted march
+/// is left in the workspace's record.
 pub(crate) fn shoot(
     problem: &Problem,
     settings: &Settings,
     state: EndState,
+    mut inverse: Option<Inverse>,
     workspace: &mut Workspace,
     report: &mut SolveReport,
 ) -> Search {
     let scheme = settings.scheme;
     let scale = unknown_scale(&problem.end, &problem.rod.scale());
     let mut point = evaluate(problem, scheme, state, workspace, report, false);
-    let ended = |point: &Point, outcome| Search { state: point.state, start: point.start, outcome };
+    let ended =
+        |point: &Point, outcome, inverse| Search { state: point.state, start: point.start, outcome, inverse };
     note(report, &point);
     if !norm(&point.residual).is_finite() {
-        return ended(&point, Outcome::NotFinite);
+        return ended(&point, Outcome::NotFinite, None);
     }
-    let mut inverse: Option<[[f64; 6]; 6]> = None;
-    let mut fresh = false;
+    let mut origin = Origin::Inherited;
     for _ in 0..settings.max_iterations {
         if largest(&point.residual) <= settings.tolerance {
-            return ended(&point, Outcome::Converged);
+            return ended(&point, Outcome::Converged, inverse);
         }
         let usable = match inverse {
             Some(usable) => usable,
             None => {
                 let slope = jacobian(problem, scheme, settings.jacobian, &point, workspace, report);
                 let Some(new) = slope.and_then(|slope| invert(&slope, &scale)) else {
-                    return ended(&point, Outcome::Singular);
+                    return ended(&point, Outcome::Singular, None);
                 };
-                fresh = true;
+                origin = Origin::Fresh;
                 new
             }
         };
         let step = limited(problem, negative_product(&usable, &point.residual));
-        match line_search(problem, scheme, &point, &step, &scale, fresh, workspace, report) {
+        match line_search(problem, scheme, &point, &step, &scale, origin, workspace, report) {
             Some((next, part)) => {
                 report.iterations += 1;
                 let gain = norm(&next.residual) / norm(&point.residual);
                 inverse = (gain <= WORTHWHILE)
                     .then(|| broyden(usable, &step.map(|x| x * part), &point.residual, &next.residual))
                     .flatten();
-                fresh = false;
+                origin = Origin::Updated;
                 point = next;
                 note(report, &point);
             }
-            None if fresh => return ended(&point, Outcome::Stalled),
+            None if origin == Origin::Fresh => return ended(&point, Outcome::Stalled, None),
             None => inverse = None,
         }
     }
     let outcome =
         if largest(&point.residual) <= settings.tolerance { Outcome::Converged } else { Outcome::Stalled };
-    ended(&point, outcome)
+    ended(&point, outcome, inverse)
 }
 
 fn note(report: &mut SolveReport, point: &Point) {
@@ -138,7 +164,8 @@ fn evaluate(
     Point { state, start, residual: residual(problem, &start) }
 }
 
-/// Halves the step until the residual falls (Armijo). Without a fresh Jacobian it does not insist. Gives the point and the part of
+/// Halves the step until the residual falls (Armijo). Without a fresh Jacobian it does not insist, and an inherited one must serve well: it
+/// may be of another problem altogether. Gives the point and the part of
 /// the step taken.
 #[expect(clippy::too_many_arguments, reason = "the parts of one Newton step, used here alone")]
 fn line_search(
@@ -147,7 +174,7 @@ fn line_search(
     point: &Point,
     step: &[f64; 6],
     scale: &[f64; 6],
-    insist: bool,
+    origin: Origin,
     workspace: &mut Workspace,
     report: &mut SolveReport,
 ) -> Option<(Point, f64)> {
@@ -157,11 +184,12 @@ fn line_search(
         let taken = core::array::from_fn(|i| part * step[i] * scale[i]);
         let next = evaluate(problem, scheme, point.state.stepped(problem, &taken), workspace, report, true);
         let after = norm(&next.residual);
-        if after <= (1.0 - 1e-4 * part) * before {
+        let enough = if origin == Origin::Inherited { WORTHWHILE } else { 1.0 - 1e-4 * part };
+        if after <= enough * before {
             core::mem::swap(&mut workspace.record, &mut workspace.trial);
             return Some((next, part));
         }
-        if !insist {
+        if origin != Origin::Fresh {
             return None;
         }
         report.line_search_cuts += 1;
@@ -258,7 +286,7 @@ fn differences(problem: &Problem, point: &Point, residuals: [[f64; 6]; 6]) -> [[
 }
 
 /// The inverse of the Jacobian by the scaled unknowns.
-fn invert(slope: &[[f64; 6]; 6], scale: &[f64; 6]) -> Option<[[f64; 6]; 6]> {
+fn invert(slope: &[[f64; 6]; 6], scale: &[f64; 6]) -> Option<Inverse> {
     let factors = lu::<6>(core::array::from_fn(|i| core::array::from_fn(|k| slope[i][k] * scale[k])))?;
     let mut inverse = [[0.0; 6]; 6];
     for k in 0..6 {
@@ -272,12 +300,7 @@ fn invert(slope: &[[f64; 6]; 6], scale: &[f64; 6]) -> Option<[[f64; 6]; 6]> {
 }
 
 /// Broyden's good update of an inverse: the matrix nearest to it that takes the change of the residual to the step.
-fn broyden(
-    mut inverse: [[f64; 6]; 6],
-    step: &[f64; 6],
-    before: &[f64; 6],
-    after: &[f64; 6],
-) -> Option<[[f64; 6]; 6]> {
+fn broyden(mut inverse: Inverse, step: &[f64; 6], before: &[f64; 6], after: &[f64; 6]) -> Option<Inverse> {
     let change: [f64; 6] = core::array::from_fn(|i| after[i] - before[i]);
     let reached = negative_product(&inverse, &change).map(|x| -x);
     let through: f64 = (0..6).map(|i| step[i] * reached[i]).sum();

@@ -1,5 +1,6 @@
 //! What a solve gives: the shape, the stress, the reactions, and a report of how it went.
 
+use super::shooting::Inverse;
 use crate::math::{Pose, Strain, Stress, Vec3, Wrench};
 use thiserror::Error;
 
@@ -92,6 +93,16 @@ pub struct Guess {
     pub pose: Pose,
     /// The internal wrench at `s = L`, in that frame, N·m and N.
     pub wrench: Wrench,
+    /// The inverse Jacobian that the search which found them ended with. The next search starts with it too, and forms its own where this
+    /// one does not serve.
+    pub(crate) inverse: Option<Inverse>,
+}
+
+impl Guess {
+    /// A guess from the frame and the internal wrench at `s = L`.
+    pub const fn new(pose: Pose, wrench: Wrench) -> Self {
+        Self { pose, wrench, inverse: None }
+    }
 }
 
 /// What a support exerts on the rod.

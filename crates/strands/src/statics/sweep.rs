@@ -32,7 +32,7 @@ pub(crate) fn two_sweeps(
     workspace: &mut Workspace,
     report: &mut SolveReport,
 ) -> Search {
-    let anywhere = Guess { pose: Pose::IDENTITY, wrench: Wrench::ZERO };
+    let anywhere = Guess::new(Pose::IDENTITY, Wrench::ZERO);
     let end = EndState::from_guess(problem, &anywhere).section(problem);
     let mut start =
         march(workspace.simd, &problem.rod, settings.scheme, &problem.loads, end, &mut workspace.record);
@@ -44,7 +44,7 @@ pub(crate) fn two_sweeps(
     }
     start.pose = workspace.record.poses[0];
     let tip = workspace.record.poses[problem.rod.elements()];
-    let state = EndState::from_guess(problem, &Guess { pose: tip, wrench: Wrench::ZERO });
+    let state = EndState::from_guess(problem, &Guess::new(tip, Wrench::ZERO));
     let gap = base.between(&start.pose);
     report.residual = Quat::from_matrix(gap.rotation)
         .to_rotation_vector()
@@ -52,5 +52,5 @@ pub(crate) fn two_sweeps(
         .max(gap.position.max_abs() / problem.rod.length());
     report.residual_history.push(report.residual);
     let outcome = if report.residual.is_finite() { Outcome::Converged } else { Outcome::NotFinite };
-    Search { state, start, outcome }
+    Search { state, start, outcome, inverse: None }
 }
