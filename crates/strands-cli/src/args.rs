@@ -31,6 +31,15 @@ pub enum Command {
         /// Print one JSON object: {"figures": [{"name", "value", "unit"}]}
         #[arg(long)]
         json: bool,
+        /// Count instructions in place of time (needs valgrind)
+        #[arg(long)]
+        instructions: bool,
+        /// Only run a kernel, for the counts
+        #[arg(long, hide = true, requires = "times")]
+        kernel: Option<String>,
+        /// How often
+        #[arg(long, hide = true)]
+        times: Option<usize>,
     },
     /// Print the completions for a shell
     Completions {

@@ -17,6 +17,7 @@ use std::process::ExitCode;
 
 use args::{Arguments, Command};
 use clap::{CommandFactory, Parser};
+use strands::math::SimdLevel;
 
 /// Why a command did not do what it was asked for.
 #[derive(Debug)]
@@ -57,12 +58,20 @@ fn run(command: Command) -> Result<(), Failure> {
         Command::Solve(options) => solve::run(&options),
         Command::New(options) => new::run(&options),
         Command::View(options) => view::run(&options),
-        Command::Bench { json } => {
-            let figures = bench::measure().map_err(Failure::bad)?;
+        Command::Bench { kernel: Some(kernel), times, .. } => {
+            bench::run(&kernel, times.unwrap_or(1)).map_err(Failure::bad)
+        }
+        Command::Bench { json, instructions, .. } => {
+            let (figures, level) = if instructions {
+                (bench::count(), SimdLevel::Avx2.min(SimdLevel::detect()))
+            } else {
+                (bench::measure(), SimdLevel::detect())
+            };
+            let figures = figures.map_err(Failure::bad)?;
             if json {
                 say(&serde_json::json!({ "figures": figures }).to_string())
             } else {
-                say(bench::table(&figures).trim_end())
+                say(bench::table(&figures, level).trim_end())
             }
         }
         Command::Schema => say(&source::schema()),

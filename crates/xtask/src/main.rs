@@ -20,6 +20,7 @@ Usage: cargo xtask COMMAND
   test    Every check: format, lints, tests, documentation, WebAssembly, page
   wasm    Build the WebAssembly module into web/src/wasm
   web     Build the page into web/dist
+  bench   The solver's speed in the browser beside that without one
   docs    Build the library's documentation into target/doc
   lint    Format and lints only
 
@@ -34,6 +35,7 @@ fn main() -> ExitCode {
         ["lint"] => lint().print(),
         ["wasm"] => finish(wasm::build()),
         ["web"] => finish(wasm::build().and_then(|()| web::build())),
+        ["bench"] => finish(wasm::build().and_then(|()| web::bench())),
         ["docs"] => finish(checks::documentation().map(drop)),
         [] | ["help" | "--help" | "-h"] => {
             println!("{HELP}");

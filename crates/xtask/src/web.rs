@@ -33,6 +33,16 @@ pub fn steps(report: &mut Report) {
     }
 }
 
+/// Times the solver in a browser and without one.
+///
+/// # Errors
+/// Where Node or a browser is missing or a step fails.
+pub fn bench() -> Result<(), String> {
+    packages()?;
+    browser()?;
+    script("bench")
+}
+
 /// Installs the packages that the lock file names, where they are not there yet.
 fn packages() -> Result<(), String> {
     let web = root().join("web");

@@ -1,14 +1,17 @@
 //! `strands bench`: what the solvers cost on this machine.
 
 mod clock;
+mod instructions;
 mod problems;
+
+pub use instructions::{count, run};
 
 use std::hint::black_box;
 use std::time::Instant;
 
 use serde::Serialize;
 use strands::math::{Pose, SimdLevel, Wrench};
-use strands::rod::{Order, RodError};
+use strands::rod::{Kinematics, Order, RodError};
 use strands::statics::{
     Guess, Jacobian, Problem, Scheme, Settings, Solution, SolveFailure, SolveReport, Workspace, follow, solve,
 };
@@ -18,7 +21,8 @@ pub const NAMES: &str = "\
 Figures (of a steel wire 0.5 m long, 2 mm thick, where no other is named; one thread):
   simd_width                       numbers of 64 bits in one vector instruction
   sweep.order1 .order2 .order4 .multistep
-                                   one sweep of 100 elements, µs; with .element, ns an element
+                                   one sweep of 100 elements, µs; with .element, ns an element;
+                                   .order2.kirchhoff is of an inextensible wire
   warm.median warm.p999            both ends held, 100 elements, under gravity, residual
                                    1e-10: search after the hand moved by 0.3 % of the length
                                    and 1°, from the last solution, µs
@@ -33,7 +37,9 @@ Figures (of a steel wire 0.5 m long, 2 mm thick, where no other is named; one th
                                    with .median and .worst: 300 frames of a moving end, 100
                                    elements, residual 1e-10, each from the one before, µs
 
-Times are medians of batches that take turns.";
+Times are medians of batches that take turns. With --instructions the figures are counts, the same in
+every run: of an element in a sweep (sweep.*) and in a Jacobian by lanes (jacobian), by callgrind,
+which has instructions up to AVX2.";
 
 /// One measured number.
 #[derive(Debug, Serialize)]
@@ -55,6 +61,9 @@ pub enum BenchError {
     /// A problem could not be solved.
     #[error(transparent)]
     Solve(#[from] Box<SolveFailure>),
+    /// Instructions could not be counted.
+    #[error("{0}")]
+    Count(String),
     /// A workload could not be run.
     #[error(transparent)]
     Workload(#[from] strands_cases::CaseError),
@@ -71,14 +80,14 @@ pub fn measure() -> Result<Vec<Figure>, BenchError> {
     Ok(figures)
 }
 
-/// The figures as a table for people.
-pub fn table(figures: &[Figure]) -> String {
+/// The figures as a table for people, and the vector instructions that they were taken with.
+pub fn table(figures: &[Figure], level: SimdLevel) -> String {
     let wide = figures.iter().map(|figure| figure.name.len()).max().unwrap_or(0);
     let line = |figure: &Figure| {
         format!("  {:<wide$}  {:>10}  {}\n", figure.name, crate::units::digits(figure.value, 4), figure.unit)
     };
     let lines: String = figures.iter().map(line).collect();
-    format!("Vector instructions: {}\n{lines}", SimdLevel::detect().name())
+    format!("Vector instructions: {}\n{lines}", level.name())
 }
 
 fn figure(name: impl Into<String>, value: f64, unit: &'static str) -> Figure {
@@ -113,22 +122,31 @@ fn workloads() -> Result<Vec<Figure>, BenchError> {
     Ok(figures)
 }
 
+/// Elements of the rods that are swept.
+const ELEMENTS: usize = 100;
+
+/// Sweeps of the standard problem, by name.
+const SWEEPS: [(&str, Order, Scheme, Kinematics); 5] = [
+    ("order1", Order::First, Scheme::Element, Kinematics::Cosserat),
+    ("order2", Order::Second, Scheme::Element, Kinematics::Cosserat),
+    ("order2.kirchhoff", Order::Second, Scheme::Element, Kinematics::Kirchhoff),
+    ("order4", Order::Fourth, Scheme::Element, Kinematics::Cosserat),
+    ("multistep", Order::Second, Scheme::Multistep, Kinematics::Cosserat),
+];
+
+/// Each of them, ready to run.
+fn sweep_runs() -> Result<Vec<Box<dyn FnMut()>>, BenchError> {
+    let run = |(_, order, scheme, kinematics)| {
+        let problem = problems::standard(ELEMENTS, order, kinematics)?;
+        repeated(problem, Settings { scheme, ..Settings::default() }, None)
+    };
+    SWEEPS.into_iter().map(run).collect()
+}
+
 /// One sweep by each scheme.
 fn sweeps() -> Result<Vec<Figure>, BenchError> {
-    const ELEMENTS: usize = 100;
-    let schemes = [
-        ("order1", Order::First, Scheme::Element),
-        ("order2", Order::Second, Scheme::Element),
-        ("order4", Order::Fourth, Scheme::Element),
-        ("multistep", Order::Second, Scheme::Multistep),
-    ];
-    let mut runs = Vec::new();
-    for (_, order, scheme) in schemes {
-        let problem = problems::standard(ELEMENTS, order)?;
-        runs.push(repeated(problem, Settings { scheme, ..Settings::default() }, None)?);
-    }
-    let times = clock::in_turn(&mut runs);
-    let figures = schemes.iter().zip(times).flat_map(|((name, ..), time)| {
+    let times = clock::in_turn(&mut sweep_runs()?);
+    let figures = SWEEPS.iter().zip(times).flat_map(|((name, ..), time)| {
         [
             figure(format!("sweep.{name}"), time * 1e6, "µs"),
             figure(format!("sweep.{name}.element"), time * 1e9 / ELEMENTS as f64, "ns"),
@@ -178,6 +196,8 @@ fn jacobians() -> Result<Vec<Figure>, BenchError> {
     let mut workspace = Workspace::default();
     let mut problem = problems::held(100, problems::home())?;
     let guess = solved(&problem, &settings(Jacobian::default()), None, &mut workspace)?.guess;
+    // Without the Jacobian that it was found with.
+    let guess = Guess::new(guess.pose, guess.wrench);
     problem.end.pose = problems::wander(1)[0];
     let moved = solved(&problem, &settings(Jacobian::default()), Some(&guess), &mut workspace)?;
 
@@ -201,7 +221,11 @@ fn cost() -> Result<Vec<Figure>, BenchError> {
     let sizes = [50, 100, 200, 500, 1000, 2000, 5000];
     let mut runs = Vec::new();
     for elements in sizes {
-        runs.push(repeated(problems::standard(elements, Order::Second)?, Settings::default(), None)?);
+        runs.push(repeated(
+            problems::standard(elements, Order::Second, Kinematics::Cosserat)?,
+            Settings::default(),
+            None,
+        )?);
     }
     let times = clock::in_turn(&mut runs);
     let each: Vec<f64> = sizes.iter().zip(times).map(|(n, time)| time * 1e9 / *n as f64).collect();
@@ -232,10 +256,14 @@ fn repeated(
     solved(&problem, &settings, guess.as_ref(), &mut workspace)?;
     let once = Settings { max_iterations: 0, ..settings };
     let settings = if guess.is_some() { settings } else { once };
-    let start = guess.unwrap_or(Guess::new(Pose::IDENTITY, Wrench::ZERO));
-    let mut report = SolveReport::default();
-    Ok(Box::new(move || {
+    Ok(again(problem, settings, guess.unwrap_or(Guess::new(Pose::IDENTITY, Wrench::ZERO))))
+}
+
+/// The same search each time.
+fn again(problem: Problem, settings: Settings, start: Guess) -> Box<dyn FnMut()> {
+    let (mut workspace, mut report) = (Workspace::default(), SolveReport::default());
+    Box::new(move || {
         let mut guess = start;
         black_box(follow(black_box(&problem), &settings, &mut guess, &mut workspace, &mut report));
-    }))
+    })
 }

@@ -13,11 +13,11 @@ use strands::statics::{End, Problem};
 pub const LENGTH: f64 = 0.5;
 
 /// The wire without loads, its end free.
-fn wire(elements: usize, order: Order) -> Result<Problem, RodError> {
+fn wire(elements: usize, order: Order, kinematics: Kinematics) -> Result<Problem, RodError> {
     let material = Material::new(200e9, 80e9, 8000.0)?;
     let description = RodDescription {
         length: LENGTH,
-        kinematics: Kinematics::Cosserat,
+        kinematics,
         profile: Profile::Stations(vec![Station {
             s: 0.0,
             section: Section::Circle { radius: 1e-3 },
@@ -30,8 +30,8 @@ fn wire(elements: usize, order: Order) -> Result<Problem, RodError> {
 }
 
 /// The standard problem of the paper: clamped, and a wrench at the tip, given in the tip's frame. Two sweeps solve it.
-pub fn standard(elements: usize, order: Order) -> Result<Problem, RodError> {
-    let mut problem = wire(elements, order)?;
+pub fn standard(elements: usize, order: Order, kinematics: Kinematics) -> Result<Problem, RodError> {
+    let mut problem = wire(elements, order, kinematics)?;
     let wrench = Wrench::new(Vec3::new(0.3, 0.5, 0.2), Vec3::new(1.0, -0.5, -0.3));
     let load = PointLoad { at: LENGTH, wrench, frame: Frame::Body };
     problem.loads = problem.loads.with_point(&problem.rod, &load)?;
@@ -40,7 +40,7 @@ pub fn standard(elements: usize, order: Order) -> Result<Problem, RodError> {
 
 /// The interactive problem: both ends held, the tip at `held`, under gravity.
 pub fn held(elements: usize, held: Pose) -> Result<Problem, RodError> {
-    let mut problem = wire(elements, Order::Second)?;
+    let mut problem = wire(elements, Order::Second, Kinematics::Cosserat)?;
     problem.loads = NodalLoads::none(&problem.rod).with_gravity(&problem.rod, Vec3::new(0.0, 0.0, -9.81));
     problem.end = End::clamped(held);
     Ok(problem)

@@ -1,7 +1,7 @@
 //! Picks the widest vector instructions that the machine has, at run time.
 
-/// The vector instructions that the kernels run with.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+/// The vector instructions that the kernels run with, narrow before wide.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
 pub enum SimdLevel {
     /// What the target always has: SSE2 on x86-64, NEON on AArch64, simd128 or none in WebAssembly.
     Baseline,
