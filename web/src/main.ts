@@ -4,7 +4,7 @@ import './style.css'
 import { engineering, gradient, quantities } from './colour'
 import { checkbox, choice, firstRod, numberFields, numberInput, type SceneJson } from './inspector'
 import { Plot } from './plot'
-import type { HandPose, Reply, Shape } from './protocol'
+import type { HandMode, HandPose, Reply, Shape } from './protocol'
 import { Solver } from './solver'
 import { Stage } from './stage'
 
@@ -38,14 +38,15 @@ function receive(reply: Reply): void {
     scene = JSON.parse(reply.scene)
     fill()
   }
-  if (reply.kind === 'opened' || reply.kind === 'shape') show(reply.shape)
+  if (reply.kind === 'opened' || reply.kind === 'shape' || reply.kind === 'settled') show(reply.shape, reply.kind === 'settled')
 }
 
-function show(shape: Shape): void {
+function show(shape: Shape, settled = false): void {
   stage.show(shape)
   const { report } = shape
   const { force, moment } = report.end
-  times.push(shape.milliseconds)
+  // The way to a hand that was not reached at once is no solve.
+  if (!settled) times.push(shape.milliseconds)
   if (times.length > 300) times.shift()
   const sorted = [...times].sort((a, b) => a - b)
   const at = (part: number) => sorted[Math.min(sorted.length - 1, Math.floor(part * sorted.length))].toFixed(2)
@@ -58,11 +59,13 @@ function show(shape: Shape): void {
     time: `${at(0.5)} ms, p99 ${at(0.99)}`,
   }
   for (const [id, value] of Object.entries(text)) element(id).textContent = value
-  const state = report.status === 'failed' ? 'failed' : report.morse_index === null ? 'converged' : report.morse_index === 0 ? 'stable' : 'unstable'
+  if (report.settling) return
+  const away = report.beyond > 0 ? `out of reach by ${(1e3 * report.beyond).toFixed(1)} mm` : null
+  const state = away ?? (report.status === 'failed' ? 'failed' : report.morse_index === null ? 'converged' : report.morse_index === 0 ? 'stable' : 'unstable')
   const badge = element('badge')
   if (badge.textContent !== state) badge.textContent = state
-  badge.className = state
-  say(report.reason)
+  badge.className = away ? 'unstable' : state
+  say(away ? null : report.reason)
   plot.add(Math.hypot(...force))
   legend()
   for (const [i, id] of ['hand-x', 'hand-y', 'hand-z'].entries()) {
@@ -90,6 +93,7 @@ async function open(text: string, name: string): Promise<void> {
   opened = { text, name }
   undone.length = 0
   times.length = 0
+  solver.forget()
   const reply = await solver.ask({ kind: 'open', text, name })
   receive(reply)
   if (reply.kind === 'opened') {
@@ -121,7 +125,7 @@ async function undo(): Promise<void> {
 
 async function setMode(mode: string): Promise<void> {
   inputs.get('mode')!.value = mode
-  receive(await solver.ask({ kind: 'mode', mode }))
+  receive(await solver.ask({ kind: 'mode', mode: mode as HandMode }))
 }
 
 /** Writes the scene's numbers into the inspector. */
@@ -152,7 +156,7 @@ function buildInspector(): void {
   inputs.set('order', choice(element('solver'), 'order', 'Order', 'Order of accuracy of the elements.', orders, (value) => {
     void edit((scene) => (scene.solver = { ...scene.solver, order: Number(value) }))
   }))
-  const modes: [string, string][] = [['pose', 'imposes a pose'], ['coupling', 'pulls a spring'], ['scene', 'lets go']]
+  const modes: [string, string][] = [['pose', 'imposes a pose'], ['coupling', 'pulls a spring'], ['scene', 'is not there'], ['free', 'lets go']]
   inputs.set('mode', choice(element('hand'), 'mode', 'The hand', 'How the hand holds the thread’s end.', modes, (value) => void setMode(value)))
   for (const [i, axis] of ['x', 'y', 'z'].entries()) {
     inputs.set(`hand-${axis}`, numberInput(element('hand'), `hand-${axis}`, `Hand ${axis}`, 'mm', `Where the hand is along ${axis}.`, (value) => {

@@ -1,9 +1,17 @@
 /** What the page and the solver's worker say to each other. */
 
+/** How the hand holds the thread's end. */
+export type HandMode = 'pose' | 'coupling' | 'scene' | 'free'
+
 /** How a solve went, as the solver reports it. Reactions are in world axes, N and N·m. */
 export interface Report {
   status: 'converged' | 'failed'
   reason: string | null
+  /** Whether the worker is still on its way to the hand. */
+  settling: boolean
+  mode: HandMode
+  /** How far the hand is out of reach, m. */
+  beyond: number
   method: string
   iterations: number
   /** Null where it is not finite. */
@@ -12,6 +20,7 @@ export interface Report {
   morse_index: number | null
   elements: number
   energy: number
+  elastic_energy: number
   saturated: boolean
   start: Reaction
   end: Reaction
@@ -28,9 +37,13 @@ export interface Shape {
   otherFrames: Float64Array
   strain: Float64Array
   stress: Float64Array
+  /** Elastic energy per length, J/m, one number an element. */
+  energyDensity: Float64Array
   halfExtent: Float64Array
   hand: Float64Array
   report: Report
+  /** Hand, coupling and solution, to go back to. */
+  snapshot: Float64Array
   /** Time of the solve, ms. */
   milliseconds: number
 }
@@ -42,14 +55,17 @@ export type Request =
   | { kind: 'bundled' }
   | { kind: 'open'; text: string; name: string }
   | { kind: 'replace'; text: string }
+  | { kind: 'restore'; text: string; mode: HandMode; numbers: Float64Array }
   | { kind: 'hand'; pose: HandPose }
-  | { kind: 'mode'; mode: string }
+  | { kind: 'mode'; mode: HandMode }
   | { kind: 'coupling'; values: number[] }
   | { kind: 'toml' | 'csv' | 'glb' }
 
 export type Reply =
   | { kind: 'bundled'; scenes: { name: string; title: string; text: string }[] }
   | { kind: 'opened'; scene: string; coupling: number[]; shape: Shape }
-  | { kind: 'shape'; shape: Shape; scene: string | null }
+  | { kind: 'shape'; shape: Shape; scene: string | null; coupling: number[] }
   | { kind: 'error'; message: string }
   | { kind: 'file'; name: string; data: string | Uint8Array }
+  /** Nobody asked: the worker has come nearer to a hand that it did not reach at once. */
+  | { kind: 'settled'; shape: Shape }

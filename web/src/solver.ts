@@ -1,4 +1,7 @@
-/** The page's end of the worker: requests are answered in order, and of the hand's moves only the newest waits. */
+/**
+ * The page's end of the worker: requests are answered in order, and of the hand's moves only the newest waits. Moves that come while a
+ * solve runs replace the one that waits.
+ */
 
 import type { HandPose, Reply, Request } from './protocol'
 
@@ -9,7 +12,10 @@ export class Solver {
   #following = false
 
   constructor(private onFrame: (reply: Reply) => void) {
-    this.#worker.onmessage = (event: MessageEvent<Reply>) => this.#waiting.shift()?.(event.data)
+    this.#worker.onmessage = (event: MessageEvent<Reply>) => {
+      if (event.data.kind === 'settled') this.onFrame(event.data)
+      else this.#waiting.shift()?.(event.data)
+    }
   }
 
   ask(request: Request): Promise<Reply> {
@@ -19,7 +25,6 @@ export class Solver {
     })
   }
 
-  /** Moves the hand. While a solve runs, later moves replace the one that waits. */
   async move(pose: HandPose): Promise<void> {
     this.#hand = pose
     if (this.#following) return
@@ -30,5 +35,10 @@ export class Solver {
       this.onFrame(await this.ask({ kind: 'hand', pose: next }))
     }
     this.#following = false
+  }
+
+  /** Forgets a move that waits: the scene or the hand has been set to something else. */
+  forget(): void {
+    this.#hand = null
   }
 }

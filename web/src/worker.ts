@@ -1,22 +1,35 @@
-/** The solver in its own thread: one request, one reply. */
+/**
+ * The solver in its own thread: one request, one reply. A hand that one search does not reach is gone after in small bits while nothing
+ * else is asked for, so that a newer hand never waits for an older one.
+ */
 
 import init, { Session, bundled } from './wasm/strands_wasm.js'
 import wasm from './wasm/strands_wasm_bg.wasm?url'
 import type { Reply, Request, Shape } from './protocol'
 
+/** How long the worker goes on, ms, before it looks for messages and shows how far it is. */
+const BIT = 8
+
 const ready = init({ module_or_path: wasm })
 let session: Session | null = null
 let lastSolve = performance.now()
+/** Counts the requests: whoever settles stops at a newer one. */
+let requests = 0
+let settling = false
 
 function shape(open: Session, milliseconds: number): Shape {
+  const report = JSON.parse(open.report())
+  settling = report.settling
   return {
     frames: open.frames(),
     otherFrames: open.other_frames(),
     strain: open.strain(),
     stress: open.stress(),
+    energyDensity: open.energy_density(),
     halfExtent: open.half_extent(),
     hand: open.hand(),
-    report: JSON.parse(open.report()),
+    report,
+    snapshot: open.snapshot(),
     milliseconds,
   }
 }
@@ -38,10 +51,17 @@ function answer(request: Request): Reply {
   }
   if (!session) return { kind: 'error', message: 'No scene is open.' }
   const open = session
+  const changed = (milliseconds: number, scene: string | null): Reply => {
+    return { kind: 'shape', shape: shape(open, milliseconds), scene, coupling: Array.from(open.coupling()) }
+  }
   switch (request.kind) {
     case 'replace': {
       const milliseconds = timed(() => open.replace(request.text, 'scene.json'))
-      return { kind: 'shape', shape: shape(open, milliseconds), scene: open.scene_json() }
+      return changed(milliseconds, open.scene_json())
+    }
+    case 'restore': {
+      const milliseconds = timed(() => open.restore(request.text, request.mode, request.numbers))
+      return changed(milliseconds, open.scene_json())
     }
     case 'hand':
     case 'mode':
@@ -57,8 +77,7 @@ function answer(request: Request): Reply {
       const now = performance.now()
       const step = Math.min((now - lastSolve) / 1000, 0.1)
       lastSolve = now
-      const milliseconds = timed(() => open.solve(step))
-      return { kind: 'shape', shape: shape(open, milliseconds), scene: null }
+      return changed(timed(() => open.solve(step)), null)
     }
     case 'toml':
       return { kind: 'file', name: 'scene.toml', data: open.scene_toml() }
@@ -69,13 +88,40 @@ function answer(request: Request): Reply {
   }
 }
 
-self.onmessage = async (event: MessageEvent<Request>) => {
-  await ready
-  let reply: Reply
-  try {
-    reply = answer(event.data)
-  } catch (error) {
-    reply = { kind: 'error', message: String(error) }
+const say = (reply: Reply) => self.postMessage(reply)
+
+/** Lets messages in. A message to oneself waits for no timer. */
+function breathe(): Promise<void> {
+  return new Promise((resolve) => {
+    const { port1, port2 } = new MessageChannel()
+    port1.onmessage = () => {
+      port1.close()
+      resolve()
+    }
+    port2.postMessage(null)
+  })
+}
+
+/** Goes on towards the hand until it is reached, nothing is left to try, or something else is asked for. */
+async function settle(turn: number): Promise<void> {
+  await breathe()
+  while (settling && turn === requests && session) {
+    const open = session
+    const start = performance.now()
+    let more = true
+    while (more && performance.now() - start < BIT) more = open.settle()
+    say({ kind: 'settled', shape: shape(open, performance.now() - start) })
+    await breathe()
   }
-  self.postMessage(reply)
+}
+
+self.onmessage = async (event: MessageEvent<Request>) => {
+  const turn = ++requests
+  await ready
+  try {
+    say(answer(event.data))
+  } catch (error) {
+    say({ kind: 'error', message: String(error) })
+  }
+  if (settling) void settle(turn)
 }

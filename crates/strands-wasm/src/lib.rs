@@ -5,8 +5,9 @@
 
 mod bench;
 mod session;
+mod settle;
 
-use session::{HandMode, State};
+use session::{HandMode, State, coupling_from, coupling_numbers};
 use strands::math::{Pose, Quat, Vec3};
 use wasm_bindgen::prelude::*;
 
@@ -58,7 +59,7 @@ impl Session {
     }
 
     /// How the hand holds the rod's end: `"pose"` imposes its frame, `"coupling"` holds it through a spring and damper, `"scene"`
-    /// leaves the end as the scene has it.
+    /// leaves the end as the scene has it, `"free"` lets go.
     ///
     /// # Errors
     /// Where the mode is none of these.
@@ -84,33 +85,37 @@ impl Session {
 
     /// Sets the coupling: stiffness (N/m, N·m/rad), damping (N·s/m, N·m·s/rad), limits (N, N·m).
     pub fn set_coupling(&mut self, kx: f64, kr: f64, dx: f64, dr: f64, max_force: f64, max_torque: f64) {
-        self.state.coupling = strands::coupling::VirtualCoupling {
-            linear_stiffness: kx,
-            angular_stiffness: kr,
-            linear_damping: dx,
-            angular_damping: dr,
-            max_force,
-            max_torque,
-        };
+        self.state.coupling = coupling_from([kx, kr, dx, dr, max_force, max_torque]);
     }
 
     /// The coupling as `[kx, kr, dx, dr, max_force, max_torque]`.
     pub fn coupling(&self) -> Vec<f64> {
-        let c = &self.state.coupling;
-        vec![
-            c.linear_stiffness,
-            c.angular_stiffness,
-            c.linear_damping,
-            c.angular_damping,
-            c.max_force,
-            c.max_torque,
-        ]
+        coupling_numbers(&self.state.coupling).to_vec()
     }
 
-    /// Solves for where the hand is now. `time_step` (s) is what has passed since the last solve, for the damper. Gives whether it
-    /// converged; where not, the last good shape stays.
+    /// Solves for where the hand is now, with one search. `time_step` (s) is what has passed since the last solve, for the damper. Gives
+    /// whether it converged; where not, the last good shape stays, and [`settle`](Session::settle) goes on.
     pub fn solve(&mut self, time_step: f64) -> bool {
         self.state.solve(time_step)
+    }
+
+    /// Does a little more to get to a hand that one search did not reach, and gives whether there is more to do.
+    pub fn settle(&mut self) -> bool {
+        self.state.settle()
+    }
+
+    /// The hand, the coupling and the solution in numbers that [`restore`](Session::restore) takes back.
+    pub fn snapshot(&self) -> Vec<f64> {
+        self.state.snapshot()
+    }
+
+    /// Goes back to a state: the scene as JSON, the hand's mode, and a snapshot.
+    ///
+    /// # Errors
+    /// The message of what is wrong; the session is then as it was.
+    pub fn restore(&mut self, text: &str, mode: &str, numbers: &[f64]) -> Result<(), String> {
+        let known = HandMode::from_name(mode).ok_or_else(|| format!("there is no hand mode `{mode}`"))?;
+        self.state.restore(text, known, numbers)
     }
 
     /// The frames of the held rod's nodes: twelve numbers each, `d1 d2 d3` and the position.
@@ -133,13 +138,18 @@ impl Session {
         self.state.solution().stress.iter().flat_map(|stress| stress.to_array()).collect()
     }
 
+    /// Elastic energy per length of the held rod's elements, J/m.
+    pub fn energy_density(&self) -> Vec<f64> {
+        self.state.energy_density()
+    }
+
     /// Half extents of the held rod along `d1` and `d2` at each node, m.
     pub fn half_extent(&self) -> Vec<f64> {
         self.state.rod().problem.rod.half_extent().iter().flatten().copied().collect()
     }
 
     /// How the last solve went, as JSON: `status`, `reason`, `method`, `iterations`, `residual`, `sweeps`, `path_steps`, `morse_index`, `energy`,
-    /// `saturated`, and the reactions `start` and `end`, each `{ force, moment }` in world axes.
+    /// `saturated`, `settling` (whether there is more to do), `mode`, `beyond` (how far the hand is out of reach, m), and the reactions `start` and `end`, each `{ force, moment }` in world axes.
     pub fn report(&self) -> String {
         self.state.report()
     }

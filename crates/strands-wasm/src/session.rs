@@ -1,9 +1,12 @@
 //! The state behind a session: a scene, the hand, and the last good solutions.
 
 use strands::coupling::{Grip, LastFrame, VirtualCoupling};
-use strands::math::Pose;
-use strands::statics::{End, Guess, Settings, Solution, SolveReport, Workspace, solve};
+use strands::math::{Mat3, Pose, Strain, Vec3, Wrench};
+use strands::rod::Kinematics;
+use strands::statics::{End, Guess, Problem, Settings, Solution, SolveReport, Workspace, solve};
 use strands_scene::{FixName, Model, ModelRod, Place, Scene, SceneFile, SupportFile};
+
+use crate::settle::{Bit, Start, Way, within};
 
 /// How the hand holds the rod's end.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -14,21 +17,34 @@ pub enum HandMode {
     Pose,
     /// The hand holds on through a spring and damper.
     Coupling,
+    /// Nobody holds it.
+    Free,
 }
+
+const MODES: [(&str, HandMode); 4] = [
+    ("scene", HandMode::Scene),
+    ("pose", HandMode::Pose),
+    ("coupling", HandMode::Coupling),
+    ("free", HandMode::Free),
+];
 
 impl HandMode {
     pub fn from_name(name: &str) -> Option<Self> {
-        match name {
-            "scene" => Some(Self::Scene),
-            "pose" => Some(Self::Pose),
-            "coupling" => Some(Self::Coupling),
-            _ => None,
-        }
+        MODES.iter().find(|(known, _)| *known == name).map(|(_, mode)| *mode)
+    }
+
+    pub fn name(self) -> &'static str {
+        MODES.iter().find(|(_, mode)| *mode == self).map_or("", |(name, _)| name)
+    }
+
+    /// Whether the hand says where the end is, and not the end where the hand is.
+    fn leads(self) -> bool {
+        matches!(self, Self::Pose | Self::Coupling)
     }
 }
 
-/// How often a frame may halve its way to the hand before it gives up until the next one.
-const HALVINGS_IN_A_FRAME: usize = 3;
+/// How much of its length an inextensible thread is held at, at most.
+const REACH: f64 = 0.985;
 
 pub struct State {
     scene: Scene,
@@ -38,8 +54,13 @@ pub struct State {
     pub mode: HandMode,
     pub hand: Pose,
     pub coupling: VirtualCoupling,
+    /// The hand of the last solution.
     last_hand: Pose,
     outcome: Outcome,
+    /// What is left to try where the hand was not reached at once.
+    way: Option<Way>,
+    /// The shape that the scene opened with, where it is held.
+    home: Option<Start>,
 }
 
 /// How the last solve went.
@@ -60,13 +81,31 @@ impl State {
         let coupling = rod.hand.unwrap_or_else(|| coupling_for(rod));
         let mode = if rod.problem.end.fixed == [true; 6] { HandMode::Pose } else { HandMode::Scene };
         let outcome = Outcome { report: solutions[held].report.clone(), reason: None, saturated: false };
-        Ok(Self { scene, solutions, held, workspace, mode, hand, coupling, last_hand: hand, outcome })
+        let home = Some(Start { guess: solutions[held].guess, hand });
+        Ok(Self {
+            scene,
+            solutions,
+            held,
+            workspace,
+            mode,
+            hand,
+            coupling,
+            last_hand: hand,
+            outcome,
+            way: None,
+            home,
+        })
     }
 
+    /// Puts an edited scene in place of this one. The hand stays, and the last solution is where the search starts.
     pub fn replace(&mut self, text: &str, file_name: &str) -> Result<(), String> {
+        let same_rods = |scene: &Scene| scene.model.rods.len() == self.scene.model.rods.len();
         let scene = read(text, file_name)?;
-        let same_rods = scene.model.rods.len() == self.scene.model.rods.len();
-        let guess = same_rods.then(|| self.solution().guess);
+        let guess = same_rods(&scene).then(|| self.solution().guess);
+        self.put(scene, guess)
+    }
+
+    fn put(&mut self, scene: Scene, guess: Option<Guess>) -> Result<(), String> {
         let mut solutions = Vec::with_capacity(scene.model.rods.len());
         for (i, rod) in scene.model.rods.iter().enumerate() {
             let mut problem = rod.problem.clone();
@@ -82,27 +121,56 @@ impl State {
         self.held = self.held.min(solutions.len() - 1);
         self.scene = scene;
         self.solutions = solutions;
+        // The old home belongs to another rod.
+        self.home = None;
         let report = self.solution().report.clone();
-        self.outcome = Outcome { report, reason: None, saturated: false };
+        self.reached(report);
         Ok(())
+    }
+
+    /// What [`restore`](State::restore) needs beside the scene's text: the hand, the coupling, and where the search starts.
+    pub fn snapshot(&self) -> Vec<f64> {
+        let guess = &self.solution().guess;
+        let wrench = guess.wrench.to_array();
+        let poses = [flat(&[self.hand]), flat(&[guess.pose])].concat();
+        [poses, wrench.to_vec(), coupling_numbers(&self.coupling).to_vec()].concat()
+    }
+
+    /// Goes back to an earlier state.
+    pub fn restore(&mut self, text: &str, mode: HandMode, numbers: &[f64]) -> Result<(), String> {
+        let [hand, pose, wrench, coupling] = [0..12, 12..24, 24..30, 30..36].map(|range| numbers.get(range));
+        let (Some(hand), Some(pose), Some(wrench), Some(coupling)) = (hand, pose, wrench, coupling) else {
+            return Err(format!("a snapshot has 36 numbers, not {}", numbers.len()));
+        };
+        let scene = read(text, "scene.json")?;
+        let wrench = Wrench::new(vector(&wrench[..3]), vector(&wrench[3..]));
+        let before = (self.mode, self.hand, self.coupling);
+        (self.mode, self.hand) = (mode, unflat(hand));
+        self.coupling = coupling_from(coupling.try_into().unwrap_or([0.0; 6]));
+        let restored = self.put(scene, Some(Guess { pose: unflat(pose), wrench }));
+        if restored.is_err() {
+            (self.mode, self.hand, self.coupling) = before;
+        }
+        restored
     }
 
     pub fn file(&self) -> &SceneFile {
         &self.scene.file
     }
 
-    /// The scene with the held rod's end fixed where the hand is.
+    /// The scene with the held rod's end fixed where the hand has brought it.
     pub fn file_with_hand(&self) -> SceneFile {
+        let tip = tip(self.solution());
         let mut file = self.scene.file.clone();
-        if self.mode == HandMode::Pose
+        if self.mode.leads()
             && let Some(rod) = file.rods.get_mut(&self.rod().name)
         {
             rod.supports.retain(|support| support.at != Place::End);
             rod.supports.push(SupportFile {
                 at: Place::End,
                 fix: vec![FixName::Position, FixName::Orientation],
-                position: Some(self.hand.position.to_array()),
-                orientation: Some(self.hand.orientation().to_wxyz()),
+                position: Some(tip.position.to_array()),
+                orientation: Some(tip.orientation().to_wxyz()),
             });
         }
         file
@@ -124,42 +192,100 @@ impl State {
         self.scene.model.rods.iter().map(|rod| rod.name.as_str()).zip(&self.solutions).collect()
     }
 
-    /// Solves the held rod for where the hand is.
+    /// Solves the held rod for where the hand is, with one search from the last shape. Where that is not enough, [`settle`](State::settle)
+    /// goes on.
     pub fn solve(&mut self, time_step: f64) -> bool {
         let mut problem = self.rod().problem.clone();
         problem.end = self.end(self.rod(), time_step);
-        let settings = Settings {
-            max_halvings: HALVINGS_IN_A_FRAME,
-            restart_from_rest: false,
-            ..self.scene.model.settings
+        // A thread that is let go may come to rest far away, and no hand waits for it.
+        let settings = match self.mode.leads() {
+            true => Settings { max_halvings: 0, restart_from_rest: false, ..self.scene.model.settings },
+            false => self.scene.model.settings,
         };
-        let guess: Guess = self.solution().guess;
-        let (reason, report) = match solve(&problem, &settings, Some(&guess), &mut self.workspace) {
-            Ok(solution) => {
-                let report = solution.report.clone();
-                self.solutions[self.held] = solution;
-                self.last_hand = self.hand;
-                (None, report)
+        let last = self.solution();
+        let (guess, stable) = (last.guess, last.report.morse_index == Some(0));
+        match solve(&problem, &settings, Some(&guess), &mut self.workspace) {
+            // A search that lost stability has landed on another branch: small steps may stay on this one.
+            Ok(solution) if !stable || solution.report.morse_index == Some(0) => {
+                self.take(solution, self.hand);
+                true
             }
-            Err(failure) => (Some(failure.reason.to_string()), failure.nearest.report),
-        };
-        let saturated = problem.end.grip.is_some_and(|grip| grip.saturated(&tip(self.solution())));
-        let converged = reason.is_none();
-        self.outcome = Outcome { report, reason, saturated };
-        converged
+            Ok(unstable) => {
+                let report = unstable.report.clone();
+                self.set_out("the shape that was found is not stable".to_owned(), report, Some(unstable));
+                false
+            }
+            Err(failure) => {
+                self.set_out(failure.reason.to_string(), failure.nearest.report, None);
+                false
+            }
+        }
+    }
+
+    /// Does a little more to get to the hand, and gives whether there is more to do.
+    pub fn settle(&mut self) -> bool {
+        let Some(mut way) = self.way.take() else { return false };
+        let mut problem = self.rod().problem.clone();
+        problem.end = self.end(self.rod(), 0.0);
+        let hand = if self.mode == HandMode::Pose { problem.end.pose } else { self.hand };
+        match way.walk(&problem, &hand, &self.scene.model.settings, &mut self.workspace) {
+            Bit::Arrived(solution) => {
+                self.take(solution, hand);
+                return false;
+            }
+            Bit::Nearer(solution, hand) => {
+                self.solutions[self.held] = solution;
+                self.last_hand = hand;
+            }
+            Bit::Trying => {}
+            Bit::Stuck => return false,
+        }
+        self.way = Some(way);
+        true
+    }
+
+    fn take(&mut self, solution: Solution, hand: Pose) {
+        let report = solution.report.clone();
+        self.solutions[self.held] = solution;
+        self.last_hand = hand;
+        self.reached(report);
+    }
+
+    fn reached(&mut self, report: SolveReport) {
+        self.way = None;
+        if !self.mode.leads() {
+            self.hand = tip(self.solution());
+        }
+        let end = self.end(self.rod(), 0.0);
+        let saturated = end.grip.is_some_and(|grip| grip.saturated(&tip(self.solution())));
+        self.outcome = Outcome { report, reason: None, saturated };
+    }
+
+    fn set_out(&mut self, reason: String, report: SolveReport, unstable: Option<Solution>) {
+        let last = Start { guess: self.solution().guess, hand: self.last_hand };
+        let others = if self.mode.leads() { self.home.into_iter().collect() } else { Vec::new() };
+        self.way = Some(Way::new(last, self.solution().clone(), others, unstable));
+        self.outcome = Outcome { report, reason: Some(reason), saturated: false };
     }
 
     /// How the hand holds a rod's end now.
     fn end(&self, rod: &ModelRod, time_step: f64) -> End {
         match self.mode {
             HandMode::Scene => rod.problem.end.clone(),
-            HandMode::Pose => End::clamped(self.hand),
+            HandMode::Free => End::free(tip(self.solution())),
+            HandMode::Pose => End::clamped(reachable(rod, &self.hand)),
             HandMode::Coupling => {
                 let held = tip(self.solution());
                 let last = (time_step > 0.0).then_some(LastFrame { hand: self.last_hand, held, time_step });
                 End::gripped(Grip { coupling: self.coupling, hand: self.hand, last })
             }
         }
+    }
+
+    /// How far the hand is from what the thread reaches, m: more than nothing only where the thread cannot stretch to it.
+    fn beyond(&self) -> f64 {
+        let held = reachable(self.rod(), &self.hand);
+        if self.mode == HandMode::Pose { (self.hand.position - held.position).norm() } else { 0.0 }
     }
 
     pub fn frames(&self) -> Vec<f64> {
@@ -171,6 +297,17 @@ impl State {
         others.flat_map(|(_, solution)| flat(&solution.poses)).collect()
     }
 
+    /// Elastic energy per length of each element of the held rod, J/m.
+    pub fn energy_density(&self) -> Vec<f64> {
+        let rod = &self.rod().problem.rod;
+        let density = |(e, strain): (usize, &Strain)| {
+            let points = rod.points(e);
+            let sum: f64 = points.iter().map(|point| point.law.energy(*strain - point.rest)).sum();
+            sum / points.len() as f64
+        };
+        self.solution().strain.iter().enumerate().map(density).collect()
+    }
+
     pub fn report(&self) -> String {
         let Outcome { report, reason, saturated } = &self.outcome;
         let solution = self.solution();
@@ -180,6 +317,9 @@ impl State {
         serde_json::json!({
             "status": if reason.is_none() { "converged" } else { "failed" },
             "reason": reason,
+            "settling": self.way.is_some(),
+            "mode": self.mode.name(),
+            "beyond": self.beyond(),
             "method": report.method.name(),
             "iterations": report.iterations,
             "residual": report.residual,
@@ -228,6 +368,39 @@ fn coupling_for(rod: &ModelRod) -> VirtualCoupling {
     }
 }
 
+/// Where the end of a rod can be held for a hand.
+fn reachable(rod: &ModelRod, hand: &Pose) -> Pose {
+    let Problem { rod, start, .. } = &rod.problem;
+    let tethered = rod.kinematics() == Kinematics::Kirchhoff && start.fixed[3..] == [true; 3];
+    if tethered { within(hand, start.pose.position, REACH * rod.length()) } else { *hand }
+}
+
+pub fn coupling_numbers(c: &VirtualCoupling) -> [f64; 6] {
+    [c.linear_stiffness, c.angular_stiffness, c.linear_damping, c.angular_damping, c.max_force, c.max_torque]
+}
+
+pub fn coupling_from(numbers: [f64; 6]) -> VirtualCoupling {
+    let [linear_stiffness, angular_stiffness, linear_damping, angular_damping, max_force, max_torque] =
+        numbers;
+    VirtualCoupling {
+        linear_stiffness,
+        angular_stiffness,
+        linear_damping,
+        angular_damping,
+        max_force,
+        max_torque,
+    }
+}
+
+fn vector(numbers: &[f64]) -> Vec3 {
+    Vec3::new(numbers[0], numbers[1], numbers[2])
+}
+
+fn unflat(numbers: &[f64]) -> Pose {
+    let [d1, d2, d3, position] = [0, 3, 6, 9].map(|i| vector(&numbers[i..i + 3]));
+    Pose { rotation: Mat3 { cols: [d1, d2, d3] }, position }
+}
+
 fn flat(poses: &[Pose]) -> Vec<f64> {
     let parts = |pose: &Pose| {
         let [d1, d2, d3] = pose.rotation.cols;
@@ -237,54 +410,4 @@ fn flat(poses: &[Pose]) -> Vec<f64> {
 }
 
 #[cfg(test)]
-mod tests {
-    use super::*;
-    use strands::math::{Quat, Vec3};
-
-    fn suture() -> State {
-        let scene = strands_scene::bundled_scene("suture").unwrap();
-        State::open(scene.text, "suture.toml").unwrap()
-    }
-
-    #[test]
-    fn a_dragged_suture_follows_the_hand_and_keeps_its_shape_out_of_reach() {
-        let mut state = suture();
-        let start = state.hand;
-        for i in 1..=60 {
-            let a = f64::from(i) / 60.0;
-            let turn = Quat::from_rotation_vector(Vec3::new(0.0, 0.0, 0.8 * a)).to_matrix();
-            state.hand.position = start.position + Vec3::new(-0.03 * a, 0.02 * a, 0.02 * a);
-            state.hand.rotation = start.rotation * turn;
-            assert!(state.solve(0.0), "frame {i}: {}", state.report());
-            assert!((tip(state.solution()).position - state.hand.position).norm() < 1e-9);
-        }
-        let good = state.frames();
-        state.hand.position = Vec3::new(0.0, 0.0, 2.0);
-        assert!(!state.solve(0.0));
-        assert!(state.report().contains("out of reach"));
-        assert_eq!(good, state.frames());
-    }
-
-    #[test]
-    fn the_coupling_saturates_when_the_hand_pulls_past_the_length() {
-        let mut state = suture();
-        state.mode = HandMode::Coupling;
-        let start = state.hand;
-        let mut saturated = false;
-        for i in 1..=120 {
-            state.hand.position = start.position + Vec3::new(0.004 * f64::from(i), 0.0, 0.0);
-            state.solve(1.0 / 60.0);
-            saturated |= state.outcome.saturated;
-        }
-        assert!(saturated, "{}", state.report());
-    }
-
-    #[test]
-    fn an_edited_scene_starts_from_the_last_shape() {
-        let mut state = suture();
-        let text = state.file().to_toml().replace("poisson_ratio = 0.4", "poisson_ratio = 0.3");
-        state.replace(&text, "suture.toml").unwrap();
-        assert_eq!(state.outcome.report.path_steps, 1);
-        assert!(state.replace("nonsense = 1", "suture.toml").unwrap_err().contains("nonsense"));
-    }
-}
+mod tests;

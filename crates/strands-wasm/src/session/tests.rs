@@ -1,0 +1,88 @@
+use super::*;
+use strands::math::{Quat, Vec3};
+
+fn suture() -> State {
+    let scene = strands_scene::bundled_scene("suture").unwrap();
+    State::open(scene.text, "suture.toml").unwrap()
+}
+
+#[test]
+fn a_dragged_suture_follows_the_hand_and_stays_within_its_reach() {
+    let mut state = suture();
+    let start = state.hand;
+    for i in 1..=60 {
+        let a = f64::from(i) / 60.0;
+        let turn = Quat::from_rotation_vector(Vec3::new(0.0, 0.0, 0.8 * a)).to_matrix();
+        state.hand.position = start.position + Vec3::new(-0.03 * a, 0.02 * a, 0.02 * a);
+        state.hand.rotation = start.rotation * turn;
+        assert!(state.solve(0.0), "frame {i}: {}", state.report());
+        assert!((tip(state.solution()).position - state.hand.position).norm() < 1e-9);
+    }
+    // Beyond its length the hand goes on, and the thread as far as it can.
+    let apart = |state: &State| (tip(state.solution()).position - state.hand.position).norm();
+    state.hand.position = Vec3::new(0.3, 0.2, 0.6);
+    let before = apart(&state);
+    go(&mut state);
+    assert!((state.beyond() - (0.7 - 0.985 * 0.3)).abs() < 1e-12);
+    assert!(apart(&state) < before, "{}", state.report());
+    assert!(tip(state.solution()).position.norm() < 0.3);
+}
+
+/// Solves and settles; gives how many bits of work it took.
+fn go(state: &mut State) -> usize {
+    if state.solve(0.0) {
+        return 0;
+    }
+    (1..).find(|_| !state.settle()).unwrap_or(0)
+}
+
+#[test]
+fn a_hand_that_one_search_does_not_reach_is_reached_in_bits() {
+    let mut state = suture();
+    state.hand.position += Vec3::new(-0.14, -0.05, 0.02);
+    state.hand.rotation =
+        state.hand.rotation * Quat::from_rotation_vector(Vec3::new(0.3, 0.0, 2.0)).to_matrix();
+    let bits = go(&mut state);
+    assert!(bits > 1, "{bits}");
+    assert!(state.outcome.reason.is_none(), "{}", state.report());
+    assert!((tip(state.solution()).position - state.hand.position).norm() < 1e-9);
+}
+
+#[test]
+fn a_snapshot_brings_back_scene_hand_and_shape() {
+    let mut state = suture();
+    let (text, before, shape) = (state.file().to_json(), state.snapshot(), state.frames());
+    state.replace(&text.replace("0.3", "0.31"), "scene.json").unwrap();
+    state.hand.position.z += 0.02;
+    assert!(state.solve(0.0));
+    state.restore(&text, HandMode::Pose, &before).unwrap();
+    let apart = state.frames().iter().zip(&shape).map(|(a, b)| (a - b).abs()).fold(0.0, f64::max);
+    assert!(apart < 1e-7, "{apart}");
+    assert!(state.restore(&text, HandMode::Pose, &before[1..]).is_err());
+}
+
+#[test]
+fn the_coupling_saturates_when_the_hand_pulls_past_the_length() {
+    let mut state = suture();
+    state.mode = HandMode::Coupling;
+    let start = state.hand;
+    state.coupling.max_force = 2e-5;
+    let mut saturated = false;
+    for i in 1..=120 {
+        state.hand.position = start.position + Vec3::new(0.004 * f64::from(i), 0.0, 0.0);
+        if !state.solve(1.0 / 60.0) {
+            while state.settle() {}
+        }
+        saturated |= state.outcome.saturated;
+    }
+    assert!(saturated, "{}", state.report());
+}
+
+#[test]
+fn an_edited_scene_starts_from_the_last_shape() {
+    let mut state = suture();
+    let text = state.file().to_toml().replace("poisson_ratio = 0.4", "poisson_ratio = 0.3");
+    state.replace(&text, "suture.toml").unwrap();
+    assert_eq!(state.outcome.report.path_steps, 1);
+    assert!(state.replace("nonsense = 1", "suture.toml").unwrap_err().contains("nonsense"));
+}

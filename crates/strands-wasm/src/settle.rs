@@ -1,0 +1,138 @@
+//! The way to a hand that one search did not reach, in bits of work small enough that a newer hand can come between them.
+//!
+//! First in small steps from the last shape. Where the thread would have to snap over, that way ends at the snap; then from the shape that
+//! the scene opened with. Steps that turn a part of the thread by a radian, or lose stability, are made smaller; an unstable shape at the hand is
+//! taken when no way leads to a stable one. A start from rest, with its many
+//! routes, would take too long for a hand that moves.
+
+use strands::math::{Mat3, Pose, Quat, Vec3};
+use strands::statics::{End, Guess, Problem, Settings, Solution, Workspace, solve};
+
+/// Iterations of one step.
+const ITERATIONS: usize = 12;
+/// The first step, a part of the way.
+const FIRST_STEP: f64 = 0.25;
+/// The step at which a way counts as blocked.
+const SMALLEST_STEP: f64 = 1.0 / 256.0;
+/// How far, in rad, one step may turn any part of the thread: more is a jump to another shape.
+const LARGEST_TURN: f64 = 1.0;
+
+/// A shape to start from, with the hand that holds it.
+#[derive(Clone, Copy, Debug)]
+pub struct Start {
+    pub guess: Guess,
+    pub hand: Pose,
+}
+
+/// A way that is being walked.
+#[derive(Debug)]
+pub struct Way {
+    at: Start,
+    /// What is left to walk is one; the next step goes this far.
+    step: f64,
+    shape: Option<Solution>,
+    /// Whether what has been reached may be shown: only then does the thread move there without a jump.
+    pub continuous: bool,
+    others: Vec<Start>,
+    /// An unstable shape at the hand, for want of a stable one.
+    unstable: Option<Solution>,
+}
+
+/// What one bit of work brought.
+#[derive(Debug)]
+pub enum Bit {
+    /// The hand is reached.
+    Arrived(Solution),
+    /// A shape nearer to it, held by the hand that is given.
+    Nearer(Solution, Pose),
+    /// Nothing yet.
+    Trying,
+    /// Nothing is left to try.
+    Stuck,
+}
+
+impl Way {
+    /// A way from the last shape, and if that is blocked, from others.
+    pub fn new(last: Start, shape: Solution, others: Vec<Start>, unstable: Option<Solution>) -> Self {
+        Self { at: last, step: FIRST_STEP, shape: Some(shape), continuous: true, others, unstable }
+    }
+
+    /// Does one bit of the work to get to a problem whose end the hand holds.
+    pub fn walk(
+        &mut self,
+        goal: &Problem,
+        hand: &Pose,
+        settings: &Settings,
+        workspace: &mut Workspace,
+    ) -> Bit {
+        if self.step < SMALLEST_STEP {
+            return self.start_elsewhere();
+        }
+        let whole = self.step >= 1.0;
+        let next = if whole { *hand } else { between(&self.at.hand, hand, self.step) };
+        let mut problem = goal.clone();
+        hold(&mut problem.end, next);
+        let short =
+            Settings { max_iterations: ITERATIONS, max_halvings: 0, restart_from_rest: false, ..*settings };
+        let found = solve(&problem, &short, Some(&self.at.guess), workspace).ok();
+        let Some(found) = found.filter(|found| self.follows(found)) else {
+            self.step *= 0.5;
+            return Bit::Trying;
+        };
+        self.at = Start { guess: found.guess, hand: next };
+        if whole {
+            return Bit::Arrived(found);
+        }
+        // The step is a part of what is left, so that twice the length is a little more than twice the part.
+        self.step = f64::min(2.0 * self.step / (1.0 - self.step), 1.0);
+        self.shape = Some(found.clone());
+        if self.continuous { Bit::Nearer(found, next) } else { Bit::Trying }
+    }
+
+    /// Whether a shape is the next one on the way, and not on another branch.
+    fn follows(&self, found: &Solution) -> bool {
+        let Some(before) = &self.shape else { return true };
+        let lost = found.report.morse_index > before.report.morse_index.max(Some(0));
+        !lost && largest_turn(&before.poses, &found.poses) <= LARGEST_TURN
+    }
+
+    fn start_elsewhere(&mut self) -> Bit {
+        let Some(start) = self.others.pop() else {
+            return self.unstable.take().map_or(Bit::Stuck, Bit::Arrived);
+        };
+        (self.at, self.step, self.shape, self.continuous) = (start, FIRST_STEP, None, false);
+        Bit::Trying
+    }
+}
+
+/// Puts the end that a hand holds somewhere else.
+fn hold(end: &mut End, hand: Pose) {
+    match &mut end.grip {
+        Some(grip) => grip.hand = hand,
+        None => end.pose = hand,
+    }
+}
+
+/// A place on the straight line between two poses, turned on the shorter way.
+pub fn between(from: &Pose, to: &Pose, part: f64) -> Pose {
+    let turn = from.between(to).log().angular;
+    Pose {
+        rotation: from.rotation * Quat::from_rotation_vector(turn * part).to_matrix(),
+        position: from.position + (to.position - from.position) * part,
+    }
+}
+
+/// A place that an inextensible thread can be held at: pulled tight, it is a boundary layer at either end and nothing in between, which
+/// no search from one end resolves.
+pub fn within(hand: &Pose, base: Vec3, reach: f64) -> Pose {
+    let arm = hand.position - base;
+    let distance = arm.norm();
+    if distance <= reach { *hand } else { Pose { position: base + arm * (reach / distance), ..*hand } }
+}
+
+fn largest_turn(before: &[Pose], after: &[Pose]) -> f64 {
+    let turn = |a: &Mat3, b: &Mat3| Quat::from_matrix(a.transpose() * *b).to_rotation_vector().norm();
+    let stride = (before.len() / 8).max(1);
+    let pairs = before.iter().zip(after).step_by(stride);
+    pairs.map(|(a, b)| turn(&a.rotation, &b.rotation)).fold(0.0, f64::max)
+}
