@@ -193,20 +193,27 @@ impl State {
     }
 
     /// Solves the held rod for where the hand is, with one search from the last shape. Where that is not enough, [`settle`](State::settle)
-    /// goes on.
+    /// goes on. Without a hand that leads, nobody waits for the next frame: then the search may start again from rest.
     pub fn solve(&mut self, time_step: f64) -> bool {
         let mut problem = self.rod().problem.clone();
         problem.end = self.end(self.rod(), time_step);
-        // A thread that is let go may come to rest far away, and no hand waits for it.
-        let settings = match self.mode.leads() {
-            true => Settings { max_halvings: 0, restart_from_rest: false, ..self.scene.model.settings },
-            false => self.scene.model.settings,
-        };
+        let leads = self.mode.leads();
+        let whole = self.scene.model.settings;
+        let settings =
+            if leads { Settings { max_halvings: 0, restart_from_rest: false, ..whole } } else { whole };
         let last = self.solution();
         let (guess, stable) = (last.guess, last.report.morse_index == Some(0));
-        match solve(&problem, &settings, Some(&guess), &mut self.workspace) {
+        let mut found = solve(&problem, &settings, Some(&guess), &mut self.workspace);
+        let is_stable = |solution: &Solution| solution.report.morse_index == Some(0);
+        if !leads
+            && !found.as_ref().is_ok_and(is_stable)
+            && let Ok(other) = solve(&problem, &whole, None, &mut self.workspace)
+        {
+            found = Ok(other);
+        }
+        match found {
             // A search that lost stability has landed on another branch: small steps may stay on this one.
-            Ok(solution) if !stable || solution.report.morse_index == Some(0) => {
+            Ok(solution) if !leads || !stable || is_stable(&solution) => {
                 self.take(solution, self.hand);
                 true
             }

@@ -49,6 +49,19 @@ fn a_hand_that_one_search_does_not_reach_is_reached_in_bits() {
 }
 
 #[test]
+fn a_thread_that_was_let_go_comes_back_to_the_scene() {
+    let mut state = suture();
+    let opened = state.frames();
+    for mode in [HandMode::Free, HandMode::Scene] {
+        state.mode = mode;
+        assert!(state.solve(0.0), "{}", state.report());
+        assert_eq!(state.solution().report.morse_index, Some(0), "{mode:?}");
+    }
+    let apart = state.frames().iter().zip(&opened).map(|(a, b)| (a - b).abs()).fold(0.0, f64::max);
+    assert!(apart < 1e-6, "{apart}");
+}
+
+#[test]
 fn a_snapshot_brings_back_scene_hand_and_shape() {
     let mut state = suture();
     let (text, before, shape) = (state.file().to_json(), state.snapshot(), state.frames());
