@@ -1,18 +1,39 @@
-/** Perceptually uniform colours (viridis, sampled; van der Walt & Smith 2015) and what the thread can be coloured by. */
+/**
+ * Perceptually uniform colours, sampled: viridis (van der Walt & Smith 2015) and cividis, which a colour-blind eye reads in the same way
+ * (Nuñez, Anderton & Renslow 2018); and what the thread can be coloured by.
+ */
 
 import type { Shape } from './protocol'
 
-const VIRIDIS = ['440154', '482878', '3e4989', '31688e', '26828e', '1f9e89', '35b779', '6ece58', 'b5de2b', 'fde725']
-const STOPS = VIRIDIS.map((hex) => [0, 2, 4].map((i) => (parseInt(hex.slice(i, i + 2), 16) / 255) ** 2.2))
-
-/** A colour in linear light for `x` in [0, 1]. */
-export function viridis(x: number): number[] {
-  const place = Math.min(Math.max(x, 0), 1) * (STOPS.length - 1)
-  const i = Math.min(Math.floor(place), STOPS.length - 2)
-  return STOPS[i].map((a, k) => a + (STOPS[i + 1][k] - a) * (place - i))
+const STOPS: Record<string, string[]> = {
+  viridis: ['440154', '482878', '3e4989', '31688e', '26828e', '1f9e89', '35b779', '6ece58', 'b5de2b', 'fde725'],
+  cividis: ['00224e', '123570', '3b496c', '575d6d', '707173', '8a8678', 'a59c74', 'c3b369', 'e1cc55', 'fee838'],
 }
 
-export const gradient = `linear-gradient(90deg, ${VIRIDIS.map((hex) => '#' + hex).join(', ')})`
+function linear(part: number): number {
+  return part <= 0.04045 ? part / 12.92 : ((part + 0.055) / 1.055) ** 2.4
+}
+
+const LINEAR = Object.fromEntries(
+  Object.entries(STOPS).map(([name, stops]) => [
+    name,
+    stops.map((hex) => [0, 2, 4].map((i) => linear(parseInt(hex.slice(i, i + 2), 16) / 255))),
+  ]),
+)
+
+export type MapName = 'viridis' | 'cividis'
+
+/** Writes a colour in linear light for `x` in [0, 1]. */
+export function colourAt(map: MapName, x: number, into: number[]): void {
+  const stops = LINEAR[map]
+  const place = Math.min(Math.max(x, 0), 1) * (stops.length - 1)
+  const i = Math.min(Math.floor(place), stops.length - 2)
+  for (let k = 0; k < 3; k++) into[k] = stops[i][k] + (stops[i + 1][k] - stops[i][k]) * (place - i)
+}
+
+export function gradient(map: MapName): string {
+  return `linear-gradient(90deg, ${STOPS[map].map((hex) => `#${hex}`).join(', ')})`
+}
 
 export interface Quantity {
   label: string
@@ -25,15 +46,20 @@ export const quantities: Record<string, Quantity | null> = {
   twist: { label: 'Twist', unit: '1/m', value: (s, e) => s.strain[6 * e + 2] },
   tension: { label: 'Tension', unit: 'N', value: (s, e) => s.stress[6 * e + 5] },
   moment: { label: 'Bending moment', unit: 'N·m', value: (s, e) => Math.hypot(s.stress[6 * e], s.stress[6 * e + 1]) },
+  energy: { label: 'Elastic energy', unit: 'J/m', value: (s, e) => s.energyDensity[e] },
   nothing: null,
 }
 
-const PREFIXES: [number, string][] = [[1e3, 'k'], [1, ''], [1e-3, 'm'], [1e-6, 'µ'], [1e-9, 'n']]
-
-/** A number in engineering units, three digits. */
-export function engineering(value: number, unit: string): string {
-  const size = Math.abs(value)
-  if (size < 1e-15) return `0 ${unit}`
-  const [scale, prefix] = PREFIXES.find(([scale]) => size >= scale) ?? PREFIXES[PREFIXES.length - 1]
-  return `${(value / scale).toPrecision(3)} ${prefix}${unit}`
+/** A quantity at the nodes, and its least and greatest value. */
+export function atNodes(quantity: Quantity, shape: Shape): { values: Float64Array; range: [number, number] } {
+  const elements = shape.strain.length / 6
+  const values = new Float64Array(elements + 1)
+  const range: [number, number] = [Infinity, -Infinity]
+  for (let i = 0; i <= elements; i++) {
+    const value = 0.5 * (quantity.value(shape, Math.max(i - 1, 0)) + quantity.value(shape, Math.min(i, elements - 1)))
+    values[i] = value
+    range[0] = Math.min(range[0], value)
+    range[1] = Math.max(range[1], value)
+  }
+  return { values, range }
 }

@@ -1,125 +1,164 @@
-/** The inspector: fields that read and write the scene, each with a label, a unit and a sentence. */
+/** The inspector: four groups of controls that read and write the scene, the hand, the solver and the view. */
 
-export type SceneJson = Record<string, any>
+import { atNodes, quantities, type MapName } from './colour'
+import { checkbox, choice, numberInput, write } from './controls'
+import { couplingFields, firstRod, numberFields, type SceneJson } from './fields'
+import type { HandMode, Shape } from './protocol'
+import type { Stage, ViewOptions } from './stage'
 
-interface NumberField {
-  group: string
-  id: string
-  label: string
-  unit: string
-  help: string
-  /** How many of the scene's units make one of the field's. */
-  scale: number
-  get: (scene: SceneJson) => number | undefined
-  set: (scene: SceneJson, value: number) => void
+/** What the inspector asks of the page. */
+export interface Edits {
+  scene: (change: (scene: SceneJson) => void) => void
+  /** The hand was put somewhere by numbers. */
+  hand: (change: () => void) => void
+  mode: (mode: HandMode) => void
+  coupling: (values: number[]) => void
+  look: (change: Partial<ViewOptions>) => void
 }
 
-export function firstRod(scene: SceneJson): SceneJson {
-  return scene.rods[Object.keys(scene.rods)[0]]
-}
+const group = (id: string) => document.getElementById(id)!
 
-function material(scene: SceneJson): SceneJson | undefined {
-  return scene.materials?.[firstRod(scene).material]
-}
+export class Inspector {
+  #numbers = new Map<string, HTMLInputElement>()
+  #choices = new Map<string, HTMLSelectElement>()
+  #shape: Shape | null = null
 
-/** The scene's section where it is the same all along the rod and a circle. */
-function circle(scene: SceneJson): SceneJson | undefined {
-  const section = firstRod(scene).section
-  return section && !Array.isArray(section) && section.shape === 'circle' ? section : undefined
-}
-
-function restCurvature(scene: SceneJson): number[] | undefined {
-  const rest = firstRod(scene).rest
-  return rest === undefined || rest === null ? [0, 0, 0] : rest.curvature
-}
-
-function restField(index: number, id: string, label: string, help: string): NumberField {
-  return {
-    group: 'strand', id, label, unit: '1/m', help, scale: 1,
-    get: (scene) => restCurvature(scene)?.[index],
-    set: (scene, value) => {
-      const curvature = [...(restCurvature(scene) ?? [0, 0, 0])]
-      curvature[index] = value
-      firstRod(scene).rest = { curvature }
-    },
+  constructor(private stage: Stage, private edits: Edits) {
+    this.#strand()
+    this.#hand()
+    this.#solver()
+    this.#view()
   }
-}
 
-export const numberFields: NumberField[] = [
-  {
-    group: 'strand', id: 'length', label: 'Length', unit: 'mm', help: 'Rest length of the thread.', scale: 1e-3,
-    get: (scene) => firstRod(scene).length,
-    set: (scene, value) => (firstRod(scene).length = value),
-  },
-  {
-    group: 'strand', id: 'radius', label: 'Radius', unit: 'mm', help: 'Radius of its round section.', scale: 1e-3,
-    get: (scene) => circle(scene)?.radius,
-    set: (scene, value) => (circle(scene)!.radius = value),
-  },
-  {
-    group: 'strand', id: 'youngs', label: 'Young’s E', unit: 'GPa', help: 'Young’s modulus of its material.', scale: 1e9,
-    get: (scene) => material(scene)?.youngs_modulus,
-    set: (scene, value) => (material(scene)!.youngs_modulus = value),
-  },
-  {
-    group: 'strand', id: 'poisson', label: 'Poisson’s ν', unit: '', help: 'Poisson’s ratio of its material.', scale: 1,
-    get: (scene) => material(scene)?.poisson_ratio,
-    set: (scene, value) => (material(scene)!.poisson_ratio = value),
-  },
-  {
-    group: 'strand', id: 'density', label: 'Density', unit: 'kg/m³', help: 'Density of its material.', scale: 1,
-    get: (scene) => material(scene)?.density,
-    set: (scene, value) => (material(scene)!.density = value),
-  },
-  restField(0, 'kappa1', 'Rest κ₁', 'Curvature about d1 when nothing acts.'),
-  restField(1, 'kappa2', 'Rest κ₂', 'Curvature about d2 when nothing acts.'),
-  restField(2, 'tau', 'Rest twist', 'Twist when nothing acts.'),
-  {
-    group: 'strand', id: 'gravity', label: 'Gravity', unit: 'm/s²', help: 'Acceleration of gravity, downwards.', scale: 1,
-    get: (scene) => -(scene.gravity?.[2] ?? 0),
-    set: (scene, value) => (scene.gravity = [0, 0, -value]),
-  },
-  {
-    group: 'solver', id: 'elements', label: 'Elements', unit: '', help: 'How many elements the thread is cut into.', scale: 1,
-    get: (scene) => firstRod(scene).elements,
-    set: (scene, value) => (firstRod(scene).elements = Math.round(value)),
-  },
-  {
-    group: 'solver', id: 'tolerance', label: 'Tolerance', unit: '', help: 'The residual at which a solve is accepted.', scale: 1,
-    get: (scene) => scene.solver?.tolerance ?? 1e-9,
-    set: (scene, value) => (scene.solver = { ...scene.solver, tolerance: value }),
-  },
-]
+  /** Writes the scene's numbers. Rows for what the scene does not have are hidden. */
+  fill(scene: SceneJson): void {
+    for (const field of numberFields) {
+      const input = this.#numbers.get(field.id)!
+      const value = field.get(scene)
+      input.closest('label')!.hidden = value === undefined
+      input.removeAttribute('aria-invalid')
+      input.closest('label')!.classList.remove('bad')
+      // Also while it has the focus: a number that was refused goes back to what holds.
+      input.value = value === undefined ? '' : String(Number((value / field.scale).toPrecision(6)))
+    }
+    this.#choices.get('kinematics')!.value = firstRod(scene).kinematics ?? 'cosserat'
+    this.#choices.get('order')!.value = String(scene.solver?.order ?? 2)
+  }
 
-function row(label: string, unit: string, help: string, control: HTMLElement): HTMLLabelElement {
-  const element = document.createElement('label')
-  element.title = help
-  element.append(label, control, unit)
-  return element
-}
+  fillCoupling(values: number[]): void {
+    values.forEach((value, i) => write(this.#numbers.get(`coupling-${i}`)!, String(Number(value.toPrecision(4)))))
+  }
 
-export function numberInput(parent: HTMLElement, id: string, label: string, unit: string, help: string, change: (value: number) => void): HTMLInputElement {
-  const input = Object.assign(document.createElement('input'), { id, type: 'number', step: 'any' })
-  const line = row(label, unit, help, input)
-  input.addEventListener('change', () => {
-    const good = input.value.trim() !== '' && Number.isFinite(input.valueAsNumber)
-    line.classList.toggle('bad', !good)
-    if (good) change(input.valueAsNumber)
-  })
-  parent.append(line)
-  return input
-}
+  /** Writes what belongs to a shape: where the hand is, and how it holds on. */
+  show(shape: Shape): void {
+    this.#shape = shape
+    this.#choices.get('mode')!.value = shape.report.mode
+    ;['x', 'y', 'z'].forEach((axis, i) => write(this.#numbers.get(`hand-${axis}`)!, (shape.hand[i] * 1e3).toFixed(2)))
+    const angles = this.stage.hand.angles
+    ;['x', 'y', 'z'].forEach((axis, i) => write(this.#numbers.get(`turn-${axis}`)!, angles[i].toFixed(1)))
+    document.body.dataset.mode = shape.report.mode
+  }
 
-export function choice(parent: HTMLElement, id: string, label: string, help: string, options: [string, string][], change: (value: string) => void): HTMLSelectElement {
-  const select = Object.assign(document.createElement('select'), { id })
-  for (const [value, text] of options) select.append(new Option(text, value))
-  select.addEventListener('change', () => change(select.value))
-  parent.append(row(label, '', help, select))
-  return select
-}
+  /** The view's controls as the view is. */
+  fillView(): void {
+    const { view } = this.stage
+    write(this.#numbers.get('scale')!, String(view.displayScale))
+    this.#range(null)
+  }
 
-export function checkbox(parent: HTMLElement, id: string, label: string, help: string, checked: boolean, change: (value: boolean) => void): void {
-  const input = Object.assign(document.createElement('input'), { id, type: 'checkbox', checked })
-  input.addEventListener('change', () => change(input.checked))
-  parent.append(row(label, '', help, input))
+  #number(parent: string, id: string, label: string, unit: string, help: string, change: (value: number) => void): void {
+    this.#numbers.set(id, numberInput(group(parent), id, label, unit, help, change))
+  }
+
+  #strand(): void {
+    for (const field of numberFields.filter((field) => field.group === 'strand')) this.#field(field)
+    const kinds: [string, string][] = [['kirchhoff', 'inextensible'], ['cosserat', 'extensible']]
+    this.#choices.set('kinematics', choice(group('strand'), 'kinematics', 'Kinematics', 'Whether the thread can stretch and shear, or only bend and twist.', kinds, (value) => {
+      this.edits.scene((scene) => (firstRod(scene).kinematics = value))
+    }))
+  }
+
+  #field(field: (typeof numberFields)[number]): void {
+    this.#number(field.group, field.id, field.label, field.unit, field.help, (value) => {
+      this.edits.scene((scene) => field.set(scene, value * field.scale))
+    })
+  }
+
+  #hand(): void {
+    const modes: [HandMode, string][] = [
+      ['pose', 'holds firmly'], ['coupling', 'pulls by a spring'], ['scene', 'as in the scene'], ['free', 'lets go'],
+    ]
+    this.#choices.set('mode', choice(group('hand'), 'mode', 'The hand', 'How the hand holds the thread’s end.', modes, (mode) => this.edits.mode(mode)))
+    ;['x', 'y', 'z'].forEach((axis, i) => {
+      this.#number('hand', `hand-${axis}`, `Place ${axis}`, 'mm', `Where the hand is along ${axis}.`, (value) => {
+        this.edits.hand(() => this.stage.hand.position.setComponent(i, value / 1e3))
+      })
+    })
+    ;['x', 'y', 'z'].forEach((axis, i) => {
+      this.#number('hand', `turn-${axis}`, `Turn ${axis}`, '°', `How the hand is turned about ${axis}; the turns are made in the order z, y, x.`, (value) => {
+        this.edits.hand(() => (this.stage.hand.angles = this.stage.hand.angles.map((angle, k) => (k === i ? value : angle))))
+      })
+    })
+    couplingFields.forEach(({ label, unit, help }, i) => {
+      this.#number('hand', `coupling-${i}`, label, unit, help, () => {
+        this.edits.coupling(couplingFields.map((_, k) => Number(this.#numbers.get(`coupling-${k}`)!.value)))
+      })
+      this.#numbers.get(`coupling-${i}`)!.closest('label')!.classList.add('spring')
+    })
+  }
+
+  #solver(): void {
+    for (const field of numberFields.filter((field) => field.group === 'solver')) this.#field(field)
+    const orders: [string, string][] = [['1', '1 (Euler)'], ['2', '2'], ['4', '4']]
+    this.#choices.set('order', choice(group('solver'), 'order', 'Order', 'Order of accuracy of the elements.', orders, (value) => {
+      this.edits.scene((scene) => (scene.solver = { ...scene.solver, order: Number(value) }))
+    }))
+  }
+
+  #view(): void {
+    const by = Object.entries(quantities).map(([key, quantity]): [string, string] => [key, quantity?.label ?? 'Nothing'])
+    choice(group('view'), 'colour', 'Colour by', 'What the thread’s colour shows.', by, (value) => {
+      this.#range(null)
+      this.edits.look({ colourBy: value })
+    })
+    const maps: [MapName, string][] = [['viridis', 'viridis'], ['cividis', 'cividis']]
+    choice(group('view'), 'map', 'Colours', 'The scale of colours; cividis looks the same to colour-blind eyes.', maps, (map) => this.edits.look({ map }))
+    checkbox(group('view'), 'fixed', 'Fixed range', 'Keeps the range of the colours as it is now.', false, (fixed) => {
+      const quantity = quantities[this.stage.view.colourBy]
+      this.#range(fixed && quantity && this.#shape ? atNodes(quantity, this.#shape).range : null)
+    })
+    const ends: [string, string, string][] = [['range-low', 'From', 'The value of the first colour.'], ['range-high', 'To', 'The value of the last colour.']]
+    ends.forEach(([id, label, help], i) => {
+      this.#number('view', id, label, '', help, (value) => {
+        const range = [...(this.stage.view.range ?? [0, 1])] as [number, number]
+        range[i] = value
+        this.#range(range)
+      })
+    })
+    this.#range(null)
+    this.#number('view', 'scale', 'Thickness', '×', 'How many times as thick as it is the thread is drawn.', (value) => this.edits.look({ displayScale: Math.max(value, 0.01) }))
+    const glyphs: [keyof ViewOptions & string, string, string][] = [
+      ['arrows', 'Forces', 'Forces (orange) and torques (violet) that hand and support exert on the thread.'],
+      ['directors', 'Directors', 'The material frame along the thread: d1 red, d2 green, d3 blue.'],
+      ['internalForce', 'Inner force', 'The force that the thread carries, along it.'],
+      ['internalMoment', 'Inner moment', 'The moment that the thread carries, along it.'],
+    ]
+    for (const [key, label, help] of glyphs) {
+      checkbox(group('view'), key, label, help, this.stage.view[key] as boolean, (value) => this.edits.look({ [key]: value }))
+    }
+  }
+
+  /** Fixes the range of the colours, or sets it free. */
+  #range(range: [number, number] | null): void {
+    const unit = quantities[this.stage.view.colourBy]?.unit ?? ''
+    ;(document.getElementById('fixed') as HTMLInputElement).checked = range !== null
+    ;['range-low', 'range-high'].forEach((id, i) => {
+      const input = this.#numbers.get(id)!
+      const line = input.closest('label')!
+      line.hidden = range === null
+      line.querySelector('.unit')!.textContent = unit
+      if (range) input.value = String(Number(range[i].toPrecision(4)))
+    })
+    this.edits.look({ range })
+  }
 }

@@ -1,304 +1,275 @@
 /** The page: scenes, stage, inspector and the strip of numbers, around one solver. */
 
 import './style.css'
-import { engineering, gradient, quantities } from './colour'
-import { checkbox, choice, firstRod, numberFields, numberInput, type SceneJson } from './inspector'
+import { isRectangle, firstRod, type SceneJson } from './fields'
+import { download, forgetShared, givenScene, listenToFiles, share } from './files'
+import { Gestures } from './gestures'
+import { dismissHints, listenToHelp, showGestures, showHints } from './help'
+import { History } from './history'
+import { Inspector } from './inspector'
+import { listenToKeys } from './keys'
+import { showLegend } from './legend'
 import { Plot } from './plot'
-import type { HandMode, HandPose, Reply, Shape } from './protocol'
+import type { HandMode, Reply, Shape } from './protocol'
+import { buildRail, markCurrent, spoken } from './rail'
+import { judge, Readout } from './readout'
+import { listenToTabs, showSheet } from './sheets'
 import { Solver } from './solver'
-import { Stage } from './stage'
+import { Stage, type ViewOptions } from './stage'
+
+/** A state to go back to. */
+interface Moment {
+  scene: string
+  mode: HandMode
+  numbers: Float64Array
+}
 
 const element = <T extends HTMLElement>(id: string) => document.getElementById(id) as T
-const stage = new Stage(element<HTMLCanvasElement>('stage'), moveHand)
+const stage = new Stage(element<HTMLCanvasElement>('stage'), element('labels'), moveHand)
+const gestures = new Gestures(stage, { grabbed: remember, moved: moveHand })
 const solver = new Solver(receive)
-const plot = new Plot(element<HTMLCanvasElement>('plot'))
-const times: number[] = []
-const inputs = new Map<string, HTMLInputElement | HTMLSelectElement>()
-const undone: string[] = []
+const readout = new Readout(new Plot(element<HTMLCanvasElement>('plot')))
+const inspector = new Inspector(stage, { scene: edit, hand: placeHand, mode: setMode, coupling: setCoupling, look })
+const history = new History<Moment>((undo, redo) => {
+  element<HTMLButtonElement>('undo').disabled = !undo
+  element<HTMLButtonElement>('redo').disabled = !redo
+})
 let scene: SceneJson = {}
+let shape: Shape | null = null
 let opened = { text: '', name: '' }
 let paused = false
 let frames = 0
 
-function moveHand(pose: HandPose): void {
+function moveHand(): void {
+  if (!shape) return
+  dismissHints()
+  // A paused page shows where the hand would be, and solves when it goes on.
   if (paused) return
-  if (inputs.get('mode')!.value === 'scene') void setMode('pose')
-  void solver.move(pose)
+  if (shape.report.mode === 'scene' || shape.report.mode === 'free') void solver.ask({ kind: 'mode', mode: 'pose' })
+  shape.report.mode = shape.report.mode === 'coupling' ? 'coupling' : 'pose'
+  void solver.move(stage.hand.pose())
+}
+
+function placeHand(change: () => void): void {
+  remember()
+  change()
+  moveHand()
 }
 
 function receive(reply: Reply): void {
-  if (reply.kind === 'error') return say(reply.message)
-  if (reply.kind === 'opened') {
-    scene = JSON.parse(reply.scene)
-    stage.setHand(reply.shape.hand)
-    stage.fit(reply.shape)
-    fill(reply.coupling)
+  switch (reply.kind) {
+    case 'error':
+      return say(reply.message)
+    case 'opened':
+      scene = JSON.parse(reply.scene)
+      stage.hand.set(reply.shape.hand)
+      setUp(reply.shape)
+      inspector.fill(scene)
+      inspector.fillCoupling(reply.coupling)
+      // The first solve starts from rest, and says nothing of the frames to come.
+      return show(reply.shape, false)
+    case 'shape':
+      if (reply.scene) {
+        scene = JSON.parse(reply.scene)
+        inspector.fill(scene)
+        inspector.fillCoupling(reply.coupling)
+      }
+      return show(reply.shape)
+    case 'settled':
+      return show(reply.shape, false)
   }
-  if (reply.kind === 'shape' && reply.scene) {
-    scene = JSON.parse(reply.scene)
-    fill()
-  }
-  if (reply.kind === 'opened' || reply.kind === 'shape' || reply.kind === 'settled') show(reply.shape, reply.kind === 'settled')
 }
 
-function show(shape: Shape, settled = false): void {
-  stage.show(shape)
-  const { report } = shape
-  const { force, moment } = report.end
-  // The way to a hand that was not reached at once is no solve.
-  if (!settled) times.push(shape.milliseconds)
-  if (times.length > 300) times.shift()
-  const sorted = [...times].sort((a, b) => a - b)
-  const at = (part: number) => sorted[Math.min(sorted.length - 1, Math.floor(part * sorted.length))].toFixed(2)
-  const text: Record<string, string> = {
-    force: engineering(Math.hypot(...force), 'N') + (report.saturated ? ' (limit)' : ''),
-    torque: engineering(Math.hypot(...moment), 'N·m'),
-    energy: engineering(report.energy, 'J'),
-    method: `${report.method}, ${report.elements} el.`,
-    newton: `${report.iterations} it., ${report.residual?.toExponential(1) ?? '–'}`,
-    time: `${at(0.5)} ms, p99 ${at(0.99)}`,
-  }
-  for (const [id, value] of Object.entries(text)) element(id).textContent = value
-  if (report.settling) return
-  const away = report.beyond > 0 ? `out of reach by ${(1e3 * report.beyond).toFixed(1)} mm` : null
-  const state = away ?? (report.status === 'failed' ? 'failed' : report.morse_index === null ? 'converged' : report.morse_index === 0 ? 'stable' : 'unstable')
-  const badge = element('badge')
-  if (badge.textContent !== state) badge.textContent = state
-  badge.className = away ? 'unstable' : state
-  say(away ? null : report.reason)
-  plot.add(Math.hypot(...force))
-  legend()
-  for (const [i, id] of ['hand-x', 'hand-y', 'hand-z'].entries()) {
-    const input = inputs.get(id) as HTMLInputElement
-    if (document.activeElement !== input) input.value = (shape.hand[i] * 1e3).toFixed(2)
-  }
+/** Prepares stage and names for a scene that has just been opened. */
+function setUp(first: Shape): void {
+  const startIsHeld = firstRod(scene).supports?.some((support: SceneJson) => support.at === 'start') ?? false
+  const surgical = String(scene.name ?? '').includes('suture')
+  stage.setScene(first, { square: isRectangle(scene), surgical, startIsHeld })
+  inspector.fillView()
+  element('scene-name').textContent = spoken(scene.name ?? opened.name)
+  markCurrent(element('rail'), scene.name)
+}
+
+function show(next: Shape, solved = true): void {
+  shape = next
+  // A hand that does not lead is where the thread's end is; one that leads is ahead of the solver.
+  const follows = next.report.mode === 'scene' || next.report.mode === 'free'
+  if (follows && !gestures.holding) stage.hand.set(next.hand)
+  stage.show(next)
+  readout.show(next, solved)
+  inspector.show(next)
+  if (!next.report.settling) say(judge(next.report).advice)
+  showLegend(element('legend'), stage.view, stage.tube.range)
 }
 
 function say(message: string | null): void {
-  const box = element('message')
-  box.hidden = !message
-  box.textContent = message
-  if (message && element('badge').textContent === 'opening') element('badge').textContent = 'failed'
+  element('message').hidden = !message
+  element('message-text').textContent = message
 }
 
-function legend(): void {
-  const quantity = quantities[stage.view.colourBy]
-  element('legend').hidden = !quantity
-  if (!quantity) return
-  const [low, high] = stage.tube.range
-  element('legend').innerHTML = `${quantity.label}<i style="background:${gradient}"></i><div><span>${engineering(low, quantity.unit)}</span><span>${engineering(high, quantity.unit)}</span></div>`
-}
-
-async function open(text: string, name: string): Promise<void> {
-  opened = { text, name }
-  undone.length = 0
-  times.length = 0
+/** Opens a scene in place of this one, and gives whether that worked. */
+async function open(text: string, name: string): Promise<boolean> {
   solver.forget()
   const reply = await solver.ask({ kind: 'open', text, name })
+  if (reply.kind !== 'opened') {
+    if (!shape) readout.say({ kind: 'failed', badge: 'failed' })
+    receive(reply)
+    return false
+  }
+  opened = { text, name }
+  history.clear()
+  setPaused(false)
+  say(null)
+  readout.clear()
   receive(reply)
-  if (reply.kind === 'opened') {
-    element('scene-name').textContent = `– ${scene.name ?? name}`
-    document.querySelectorAll('#rail button').forEach((button) => {
-      button.setAttribute('aria-current', String((button as HTMLElement).dataset.name === scene.name))
-    })
-    const held = firstRod(scene).supports?.some((s: SceneJson) => s.at === 'end' && s.fix.includes('position'))
-    inputs.get('mode')!.value = held ? 'pose' : 'scene'
-    // The first solve starts from rest, and says nothing of the frames to come.
-    times.length = 0
-  }
+  return true
 }
 
-async function edit(change: (scene: SceneJson) => void): Promise<void> {
-  const before = JSON.stringify(scene)
-  const edited = JSON.parse(before)
-  change(edited)
-  const reply = await solver.ask({ kind: 'replace', text: JSON.stringify(edited) })
-  if (reply.kind === 'shape') undone.push(before)
-  receive(reply)
-  if (reply.kind === 'error') fill()
+async function reset(): Promise<void> {
+  const before = shape && now()
+  if ((await open(opened.text, opened.name)) && before) history.push(before)
 }
 
-async function undo(): Promise<void> {
-  const before = undone.pop()
-  if (before) receive(await solver.ask({ kind: 'replace', text: before }))
-}
+/** Edits are made one after the other: each starts from what the last has left. */
+let lastEdit = Promise.resolve()
 
-async function setMode(mode: string): Promise<void> {
-  inputs.get('mode')!.value = mode
-  receive(await solver.ask({ kind: 'mode', mode: mode as HandMode }))
-}
-
-/** Writes the scene's numbers into the inspector. */
-function fill(coupling?: number[]): void {
-  for (const field of numberFields) {
-    const input = inputs.get(field.id) as HTMLInputElement
-    const value = field.get(scene)
-    input.disabled = value === undefined
-    input.value = value === undefined ? '' : String(Number((value / field.scale).toPrecision(6)))
-  }
-  inputs.get('kinematics')!.value = firstRod(scene).kinematics ?? 'cosserat'
-  inputs.get('order')!.value = String(scene.solver?.order ?? 2)
-  coupling?.forEach((value, i) => (inputs.get(`coupling-${i}`)!.value = String(Number(value.toPrecision(4)))))
-}
-
-function buildInspector(): void {
-  for (const field of numberFields) {
-    const input = numberInput(element(field.group), field.id, field.label, field.unit, field.help, (value) => {
-      void edit((scene) => field.set(scene, value * field.scale))
-    })
-    inputs.set(field.id, input)
-  }
-  const kinds: [string, string][] = [['kirchhoff', 'inextensible'], ['cosserat', 'extensible']]
-  inputs.set('kinematics', choice(element('strand'), 'kinematics', 'Kinematics', 'Whether the thread can stretch and shear.', kinds, (value) => {
-    void edit((scene) => (firstRod(scene).kinematics = value))
-  }))
-  const orders: [string, string][] = [['1', '1 (Euler)'], ['2', '2'], ['4', '4']]
-  inputs.set('order', choice(element('solver'), 'order', 'Order', 'Order of accuracy of the elements.', orders, (value) => {
-    void edit((scene) => (scene.solver = { ...scene.solver, order: Number(value) }))
-  }))
-  const modes: [string, string][] = [['pose', 'imposes a pose'], ['coupling', 'pulls a spring'], ['scene', 'is not there'], ['free', 'lets go']]
-  inputs.set('mode', choice(element('hand'), 'mode', 'The hand', 'How the hand holds the thread’s end.', modes, (value) => void setMode(value)))
-  for (const [i, axis] of ['x', 'y', 'z'].entries()) {
-    inputs.set(`hand-${axis}`, numberInput(element('hand'), `hand-${axis}`, `Hand ${axis}`, 'mm', `Where the hand is along ${axis}.`, (value) => {
-      const pose = stage.handPose()
-      pose[i] = value / 1e3
-      stage.setHand(pose)
-      moveHand(pose)
-    }))
-  }
-  const coupling: [string, string, string][] = [
-    ['Stiffness', 'N/m', 'Stiffness of the spring against shifts.'],
-    ['Turning', 'N·m', 'Stiffness of the spring against turns, per radian.'],
-    ['Damping', 'N·s/m', 'Damping of shifts.'],
-    ['Turn damp.', 'N·m·s', 'Damping of turns.'],
-    ['Force limit', 'N', 'The largest force that the device gives.'],
-    ['Torque limit', 'N·m', 'The largest torque that the device gives.'],
-  ]
-  coupling.forEach(([label, unit, help], i) => {
-    inputs.set(`coupling-${i}`, numberInput(element('hand'), `coupling-${i}`, label, unit, help, () => {
-      const values = coupling.map((_, k) => Number(inputs.get(`coupling-${k}`)!.value))
-      void solver.ask({ kind: 'coupling', values }).then(receive)
-    }))
+function edit(change: (scene: SceneJson) => void): void {
+  lastEdit = lastEdit.then(async () => {
+    const edited = structuredClone(scene)
+    change(edited)
+    const before = now()
+    const reply = await solver.ask({ kind: 'replace', text: JSON.stringify(edited) })
+    if (reply.kind === 'shape') history.push(before)
+    receive(reply)
+    // What was refused is not what holds.
+    if (reply.kind === 'error') inspector.fill(scene)
   })
-  const by = Object.entries(quantities).map(([key, quantity]): [string, string] => [key, quantity?.label ?? 'Nothing'])
-  choice(element('view'), 'colour', 'Colour by', 'What the thread’s colour shows.', by, (value) => look({ colourBy: value }))
-  const scale = numberInput(element('view'), 'scale', 'Radius ×', '', 'How much thicker than it is the thread is drawn.', (value) => look({ displayScale: value }))
-  scale.value = String(stage.view.displayScale)
-  checkbox(element('view'), 'arrows', 'Arrows', 'Forces (orange) and torques (violet) at both ends.', true, (value) => look({ arrows: value }))
-  checkbox(element('view'), 'directors', 'Directors', 'The material frame along the thread.', false, (value) => look({ directors: value }))
 }
 
-function look(change: Partial<typeof stage.view>): void {
+function now(): Moment {
+  return { scene: JSON.stringify(scene), mode: shape!.report.mode, numbers: shape!.snapshot }
+}
+
+function remember(): void {
+  if (shape) history.push(now())
+}
+
+async function goBack(moment: Moment | undefined): Promise<void> {
+  if (!moment) return
+  solver.forget()
+  const reply = await solver.ask({ kind: 'restore', text: moment.scene, mode: moment.mode, numbers: moment.numbers })
+  if (reply.kind === 'shape') stage.hand.set(reply.shape.hand)
+  receive(reply)
+}
+
+const undo = () => shape && void goBack(history.undo(now()))
+const redo = () => shape && void goBack(history.redo(now()))
+
+async function setMode(mode: HandMode): Promise<void> {
+  remember()
+  solver.forget()
+  receive(await solver.ask({ kind: 'mode', mode }))
+}
+
+async function setCoupling(values: number[]): Promise<void> {
+  remember()
+  receive(await solver.ask({ kind: 'coupling', values }))
+}
+
+function look(change: Partial<ViewOptions>): void {
   Object.assign(stage.view, change)
   stage.refresh()
-  legend()
-}
-
-function download(name: string, data: string | Uint8Array): void {
-  const link = document.createElement('a')
-  link.href = URL.createObjectURL(new Blob([data as BlobPart]))
-  link.download = name
-  link.click()
-  setTimeout(() => URL.revokeObjectURL(link.href), 10_000)
+  showLegend(element('legend'), stage.view, stage.tube.range)
 }
 
 async function save(kind: 'toml' | 'csv' | 'glb'): Promise<void> {
   const reply = await solver.ask({ kind })
-  if (reply.kind === 'file') download(reply.name, reply.data)
+  if (reply.kind === 'file') download(reply.name.replace(/^(scene|shape)/, scene.name ?? '$1'), reply.data)
 }
 
-async function share(): Promise<void> {
+function savePicture(): void {
+  stage.canvas.toBlob((picture) => picture && download(`${scene.name ?? 'strands'}.png`, picture))
+}
+
+async function shareScene(): Promise<void> {
   const reply = await solver.ask({ kind: 'toml' })
   if (reply.kind !== 'file') return
-  location.hash = `scene=${encodeURIComponent(reply.data as string)}`
-  await navigator.clipboard?.writeText(location.href).catch(() => undefined)
+  await share(reply.data as string)
   element('share').textContent = 'Address ready'
   setTimeout(() => (element('share').textContent = 'Share'), 1500)
 }
 
 function setPaused(value: boolean): void {
+  if (paused && !value && shape) void solver.move(stage.hand.pose())
   paused = value
   element('pause').setAttribute('aria-pressed', String(value))
+  element('pause').textContent = value ? 'Go on' : 'Pause'
 }
 
 function setTheme(dark: boolean): void {
   document.documentElement.dataset.theme = dark ? 'dark' : 'light'
+  element('theme').textContent = dark ? 'Light' : 'Dark'
   stage.setTheme(dark)
-  plot.draw()
+}
+
+/** Tells the stage what the panels cover. */
+function measure(): void {
+  const size = (id: string) => element(id).getBoundingClientRect()
+  const narrow = innerWidth <= 720
+  stage.setInsets({
+    left: narrow ? 0 : size('rail').right,
+    right: narrow ? 0 : innerWidth - size('inspector').left,
+    top: size('top').bottom,
+    bottom: innerHeight - size('strip').top,
+  })
 }
 
 function listen(): void {
   const on = (id: string, work: () => void) => element(id).addEventListener('click', work)
-  on('undo', () => void undo())
-  on('reset', () => void open(opened.text, opened.name))
+  on('undo', undo)
+  on('redo', redo)
+  on('reset', () => void reset())
   on('pause', () => setPaused(!paused))
   on('save-scene', () => void save('toml'))
   on('save-csv', () => void save('csv'))
   on('save-glb', () => void save('glb'))
+  on('save-png', savePicture)
   on('load', () => element('file').click())
-  on('share', () => void share())
+  on('share', () => void shareScene())
   on('theme', () => setTheme(document.documentElement.dataset.theme !== 'dark'))
-  on('help', () => element<HTMLDialogElement>('gestures').showModal())
-  const take = async (file?: File) => file && open(await file.text(), file.name)
-  const file = element<HTMLInputElement>('file')
-  file.addEventListener('change', () => void take(file.files?.[0]))
-  document.addEventListener('dragover', (event) => event.preventDefault())
-  document.addEventListener('drop', (event) => {
-    event.preventDefault()
-    void take(event.dataTransfer?.files[0])
+  on('help', showGestures)
+  on('hints-close', dismissHints)
+  on('message-close', () => say(null))
+  listenToHelp()
+  listenToTabs()
+  listenToFiles(element<HTMLInputElement>('file'), (text, name) => {
+    forgetShared()
+    void open(text, name)
   })
-  document.addEventListener('keydown', (event) => {
-    if (event.ctrlKey && event.key === 'z') return void undo()
-    if ((event.target as HTMLElement).matches('input, select, summary, dialog *')) return
-    const step = 0.01
-    const keys: Record<string, () => void> = {
-      q: () => stage.nudge({ twist: -0.15 }),
-      e: () => stage.nudge({ twist: 0.15 }),
-      w: () => stage.nudge({ near: -step }),
-      s: () => stage.nudge({ near: step }),
-      arrowleft: () => stage.nudge({ right: -step }),
-      arrowright: () => stage.nudge({ right: step }),
-      arrowup: () => stage.nudge({ up: step }),
-      arrowdown: () => stage.nudge({ up: -step }),
-      t: () => stage.toggleGizmo('translate'),
-      r: () => stage.toggleGizmo('rotate'),
-      '?': () => element<HTMLDialogElement>('gestures').showModal(),
-    }
-    if (event.key === ' ' && !(event.target as HTMLElement).matches('button')) {
-      event.preventDefault()
-      return setPaused(!paused)
-    }
-    keys[event.key.toLowerCase()]?.()
-  })
-}
-
-/** A scene from the server, else from the address, else the suture. */
-async function first(scenes: { name: string; text: string }[]): Promise<[string, string]> {
-  for (const name of ['scene.toml', 'scene.json']) {
-    const served = await fetch(name).catch(() => null)
-    const type = served?.headers.get('content-type') ?? ''
-    if (served?.ok && !type.includes('html')) return [await served.text(), name]
+  const escape = () => {
+    say(null)
+    showSheet(null)
+    dismissHints()
   }
-  const shared = new URLSearchParams(location.hash.slice(1)).get('scene')
-  if (shared) return [shared, 'shared.toml']
-  const suture = scenes.find((scene) => scene.name === 'suture') ?? scenes[0]
-  return [suture.text, `${suture.name}.toml`]
+  listenToKeys(stage, { undo, redo, pause: () => setPaused(!paused), help: showGestures, escape, grabbed: remember, moved: moveHand })
+  addEventListener('resize', measure)
 }
 
 async function start(): Promise<void> {
-  buildInspector()
-  if (innerWidth <= 720) document.querySelectorAll('details').forEach((group) => (group.open = false))
   listen()
   setTheme(matchMedia('(prefers-color-scheme: dark)').matches)
   const reply = await solver.ask({ kind: 'bundled' })
   if (reply.kind !== 'bundled') return receive(reply)
-  for (const { name, title, text } of reply.scenes) {
-    const button = Object.assign(document.createElement('button'), { textContent: name.replaceAll('_', ' '), title })
-    button.dataset.name = name
-    button.addEventListener('click', () => void open(text, `${name}.toml`))
-    element('rail').append(button)
-  }
-  await open(...(await first(reply.scenes)))
+  buildRail(element('rail'), reply.scenes, ({ text, name }) => {
+    forgetShared()
+    showSheet(null)
+    void open(text, `${name}.toml`)
+  })
+  measure()
+  const given = await givenScene()
+  const suture = reply.scenes.find((scene) => scene.name === 'suture') ?? reply.scenes[0]
+  await open(given?.text ?? suture.text, given?.name ?? `${suture.name}.toml`)
+  if (!given) showHints()
 }
 
 function tick(): void {
@@ -312,6 +283,6 @@ setInterval(() => {
   frames = 0
 }, 1000)
 // What the page's tests look at.
-Object.assign(window, { strands: { stage, times, moveHand } })
+Object.assign(window, { strands: { stage, readout, solver, moveHand } })
 void start()
 tick()

@@ -1,88 +1,132 @@
-/** The thread as a tube of its true section, with a stripe along d1 that shows how it twists. Buffers are written in place. */
+/**
+ * The thread as a solid of its own section, with a stripe along d1 that shows how it twists. A ring of points is laid at every node, and
+ * the buffers are written in place.
+ */
 
 import * as THREE from 'three'
-import { quantities, viridis } from './colour'
+import { atNodes, colourAt, quantities, type MapName } from './colour'
 import type { Shape } from './protocol'
 
-const SIDES = 20
-const STRIPE = 2
-const PLAIN = [0.1, 0.24, 0.5]
+/** The colour of a thread that shows nothing: that of a blue suture, in linear light. */
+const PLAIN = [0.03, 0.13, 0.42]
+const STRIPE = [0.82, 0.84, 0.86]
+
+/** A point of a ring, over the half extents along d1 and d2; its normal is `(p, q)` over those. */
+interface Point { u: number; v: number; p: number; q: number; stripe: boolean }
+
+/** Rings are made of arcs, each with its own points, so that colours and normals may break between them. */
+function arcs(square: boolean): Point[][] {
+  if (square) {
+    const side = (from: [number, number], to: [number, number], p: number, q: number, stripe = false): Point[] =>
+      [from, to].map(([u, v]) => ({ u, v, p, q, stripe }))
+    const w = 0.14
+    return [
+      side([1, -1], [1, -w], 1, 0), side([1, -w], [1, w], 1, 0, true), side([1, w], [1, 1], 1, 0),
+      side([1, 1], [-1, 1], 0, 1), side([-1, 1], [-1, -1], -1, 0), side([-1, -1], [1, -1], 0, -1),
+    ]
+  }
+  const arc = (from: number, to: number, steps: number, stripe: boolean): Point[] =>
+    Array.from({ length: steps + 1 }, (_, i) => {
+      const angle = from + ((to - from) * i) / steps
+      const [u, v] = [Math.cos(angle), Math.sin(angle)]
+      return { u, v, p: u, q: v, stripe }
+    })
+  const w = 0.3
+  return [arc(-w, w, 3, true), arc(w, 2 * Math.PI - w, 20, false)]
+}
+
+export interface Look {
+  colourBy: string
+  map: MapName
+  /** The range of the colours; null where it follows the values. */
+  range: [number, number] | null
+  displayScale: number
+}
 
 export class Tube {
   readonly mesh: THREE.Mesh
   #geometry = new THREE.BufferGeometry()
   #nodes = 0
+  #square = false
+  #arcs = arcs(false)
+  #ring: Point[] = this.#arcs.flat()
   /** The least and greatest value of the quantity that colours the thread. */
   range: [number, number] = [0, 0]
 
   constructor() {
-    const material = new THREE.MeshStandardMaterial({ vertexColors: true, roughness: 0.38, metalness: 0.05 })
+    const material = new THREE.MeshStandardMaterial({ vertexColors: true, roughness: 0.36 })
     this.mesh = new THREE.Mesh(this.#geometry, material)
     this.mesh.castShadow = true
     this.mesh.receiveShadow = true
     this.mesh.frustumCulled = false
   }
 
-  update(shape: Shape, scale: number, by: string): void {
+  /** Round or elliptic, or a rectangle. */
+  setSection(square: boolean): void {
+    if (square === this.#square) return
+    this.#square = square
+    this.#arcs = arcs(square)
+    this.#ring = this.#arcs.flat()
+    this.#nodes = 0
+  }
+
+  update(shape: Shape, look: Look): void {
     const nodes = shape.frames.length / 12
     if (nodes !== this.#nodes) this.#allocate(nodes)
     const position = this.#geometry.attributes.position.array as Float32Array
     const normal = this.#geometry.attributes.normal.array as Float32Array
     const colour = this.#geometry.attributes.color.array as Float32Array
-    const values = this.#values(shape, by, nodes)
-    for (let i = 0; i < nodes; i++) {
+    const quantity = quantities[look.colourBy]
+    const shown = quantity && atNodes(quantity, shape)
+    if (shown) this.range = shown.range
+    const [low, high] = look.range ?? this.range
+    const base = [...PLAIN]
+    const points = this.#ring.length
+    const put = (at: number, i: number, point: Point, cap: number) => {
       const f = 12 * i
-      const [a, b] = [shape.halfExtent[2 * i] * scale, shape.halfExtent[2 * i + 1] * scale]
-      const [low, high] = this.range
-      const base = values ? viridis(high > low ? (values[i] - low) / (high - low) : 0.5) : PLAIN
-      for (let j = 0; j <= SIDES; j++) {
-        const angle = (2 * Math.PI * j) / SIDES
-        const [cos, sin] = [Math.cos(angle), Math.sin(angle)]
-        const at = 3 * (i * (SIDES + 1) + j)
-        const stripe = j < STRIPE || j === SIDES ? 1 : 0
-        for (let k = 0; k < 3; k++) {
-          const [d1, d2] = [shape.frames[f + k], shape.frames[f + 3 + k]]
-          position[at + k] = shape.frames[f + 9 + k] + a * cos * d1 + b * sin * d2
-          normal[at + k] = (b * cos * d1 + a * sin * d2) / Math.hypot(b * cos, a * sin)
-          colour[at + k] = stripe ? 0.85 : base[k]
-        }
+      const a = shape.halfExtent[2 * i] * look.displayScale
+      const b = shape.halfExtent[2 * i + 1] * look.displayScale
+      const size = Math.hypot(b * point.p, a * point.q)
+      for (let k = 0; k < 3; k++) {
+        const [d1, d2, d3] = [shape.frames[f + k], shape.frames[f + 3 + k], shape.frames[f + 6 + k]]
+        position[at + k] = shape.frames[f + 9 + k] + a * point.u * d1 + b * point.v * d2
+        normal[at + k] = cap ? cap * d3 : (b * point.p * d1 + a * point.q * d2) / size
+        colour[at + k] = point.stripe && !cap ? STRIPE[k] : base[k]
       }
     }
-    for (const name of ['position', 'normal', 'color']) this.#geometry.attributes[name].needsUpdate = true
-    this.#geometry.computeBoundingSphere()
-  }
-
-  #values(shape: Shape, by: string, nodes: number): Float64Array | null {
-    const quantity = quantities[by]
-    if (!quantity) return null
-    const values = new Float64Array(nodes)
-    this.range = [Infinity, -Infinity]
     for (let i = 0; i < nodes; i++) {
-      const [before, after] = [Math.max(i - 1, 0), Math.min(i, nodes - 2)]
-      values[i] = 0.5 * (quantity.value(shape, before) + quantity.value(shape, after))
-      this.range = [Math.min(this.range[0], values[i]), Math.max(this.range[1], values[i])]
+      if (shown) colourAt(look.map, high > low ? (shown.values[i] - low) / (high - low) : 0.5, base)
+      for (let j = 0; j < points; j++) put(3 * (i * points + j), i, this.#ring[j], 0)
+      if (i > 0 && i < nodes - 1) continue
+      const first = nodes * points + (i ? points + 1 : 0)
+      for (let j = 0; j < points; j++) put(3 * (first + j), i, this.#ring[j], i ? 1 : -1)
+      put(3 * (first + points), i, { u: 0, v: 0, p: 1, q: 0, stripe: false }, i ? 1 : -1)
     }
-    return values
+    for (const name of ['position', 'normal', 'color']) this.#geometry.attributes[name].needsUpdate = true
   }
 
   #allocate(nodes: number): void {
     this.#nodes = nodes
-    const points = nodes * (SIDES + 1)
+    const points = this.#ring.length
     this.#geometry.dispose()
     for (const name of ['position', 'normal', 'color']) {
-      const attribute = new THREE.BufferAttribute(new Float32Array(3 * points), 3)
+      const attribute = new THREE.BufferAttribute(new Float32Array(3 * (nodes * points + 2 * (points + 1))), 3)
       attribute.setUsage(THREE.DynamicDrawUsage)
       this.#geometry.setAttribute(name, attribute)
     }
-    const index = new Uint32Array(6 * SIDES * (nodes - 1))
-    let at = 0
-    for (let i = 0; i + 1 < nodes; i++) {
-      for (let j = 0; j < SIDES; j++) {
-        const [a, b] = [i * (SIDES + 1) + j, (i + 1) * (SIDES + 1) + j]
-        index.set([a, a + 1, b, b, a + 1, b + 1], at)
-        at += 6
+    const index: number[] = []
+    let start = 0
+    for (const arc of this.#arcs) {
+      for (let j = start; j + 1 < start + arc.length; j++) {
+        for (let i = 0; i + 1 < nodes; i++) {
+          const [a, b] = [i * points + j, (i + 1) * points + j]
+          index.push(a, a + 1, b, b, a + 1, b + 1)
+        }
+        const [front, back] = [nodes * points, nodes * points + points + 1]
+        index.push(front + points, front + j + 1, front + j, back + points, back + j, back + j + 1)
       }
+      start += arc.length
     }
-    this.#geometry.setIndex(new THREE.BufferAttribute(index, 1))
+    this.#geometry.setIndex(index)
   }
 }

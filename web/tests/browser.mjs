@@ -1,4 +1,4 @@
-// A browser on the built page, served from 127.0.0.1.
+// A browser on the built page, served from 127.0.0.1, and how the tests speak to it.
 
 import { createServer } from 'node:http'
 import { readFile, mkdir } from 'node:fs/promises'
@@ -9,7 +9,7 @@ import { chromium } from 'playwright-core'
 
 const folder = fileURLToPath(new URL('../dist/', import.meta.url))
 export const out = fileURLToPath(new URL('./out/', import.meta.url))
-const TYPES = { '.html': 'text/html', '.js': 'text/javascript', '.css': 'text/css', '.wasm': 'application/wasm' }
+const TYPES = { '.html': 'text/html', '.js': 'text/javascript', '.css': 'text/css', '.wasm': 'application/wasm', '.webp': 'image/webp' }
 const KNOWN = ['/usr/bin/chromium', '/usr/bin/chromium-browser', '/usr/bin/google-chrome']
 
 export async function start() {
@@ -33,15 +33,57 @@ export async function start() {
   return { browser, address, stop: async () => (await browser.close(), server.close()) }
 }
 
-/** A page with the suture open; collects what the console complains about. */
-export async function openPage(context, address, size = { width: 1000, height: 640 }, scheme = 'light') {
-  const page = await context.browser.newPage({ viewport: size, colorScheme: scheme, acceptDownloads: true })
+/** A page with the suture open, its hints put away; collects what the console complains about. */
+export async function openPage(context, address, size = { width: 800, height: 500 }, scheme = 'light', options = {}) {
+  const page = await context.browser.newPage({ viewport: size, colorScheme: scheme, acceptDownloads: true, ...options })
   const complaints = []
   page.on('pageerror', (error) => complaints.push(String(error)))
   page.on('console', (message) => {
     if (message.type() === 'error' && !message.text().includes('404')) complaints.push(message.text())
   })
+  if (!options.hints) await page.addInitScript(() => localStorage.setItem('strands.hints-seen', 'yes'))
   await page.goto(address)
-  await page.waitForFunction(() => !['opening'].includes(document.getElementById('badge').textContent), null, { timeout: 30000 })
+  await until(page, () => document.getElementById('badge').textContent !== 'opening')
   return { page, complaints }
 }
+
+export const text = (page, id) => page.locator(`#${id}`).textContent()
+export const value = (page, id) => page.locator(`#${id}`).inputValue()
+export const until = (page, work, argument) => page.waitForFunction(work, argument, { timeout: 20000, polling: 30 })
+export const badge = (page, ...wanted) => until(page, (wanted) => wanted.includes(document.getElementById('badge').textContent), wanted)
+
+/** Types a number into a field. */
+export async function type(page, id, number) {
+  await page.locator(`#${id}`).fill(String(number))
+  await page.locator(`#${id}`).press('Enter')
+}
+
+/** Does something and waits until an element's text or value is another. */
+export async function changes(page, id, work) {
+  const read = () => page.locator(`#${id}`).evaluate((one) => one.value ?? one.textContent)
+  const before = await read()
+  await work()
+  await until(page, ([id, before]) => {
+    const one = document.getElementById(id)
+    return (one.value ?? one.textContent) !== before
+  }, [id, before])
+  return read()
+}
+
+/** Waits until the solver has done what it was asked to. Of moves one may be under way and one wait. */
+export async function done(page) {
+  for (let i = 0; i < 3; i++) await page.evaluate(() => window.strands.solver.ask({ kind: 'csv' }))
+}
+
+/** Opens a scene of the rail. */
+export async function openScene(page, name) {
+  await page.locator(`#rail button[data-name=${name}]`).click()
+  await until(page, (name) => document.querySelector(`#rail [data-name=${name}]`).getAttribute('aria-current') === 'true', name)
+  await badge(page, 'stable', 'converged')
+}
+
+/** Where the thread's end is on the page. */
+export const needle = (page) => page.evaluate(() => window.strands.stage.handlesOnPage()[0])
+
+/** Where the hand is: its three places and three turns as the inspector shows them. */
+export const hand = (page) => page.evaluate(() => ['hand-x', 'hand-y', 'hand-z', 'turn-x', 'turn-y', 'turn-z'].map((id) => document.getElementById(id).value))

@@ -147,7 +147,7 @@ impl State {
         let before = (self.mode, self.hand, self.coupling);
         (self.mode, self.hand) = (mode, unflat(hand));
         self.coupling = coupling_from(coupling.try_into().unwrap_or([0.0; 6]));
-        let restored = self.put(scene, Some(Guess { pose: unflat(pose), wrench }));
+        let restored = self.put(scene, Some(Guess::new(unflat(pose), wrench)));
         if restored.is_err() {
             (self.mode, self.hand, self.coupling) = before;
         }

@@ -1,0 +1,107 @@
+/**
+ * Force and torque at the hand and at the support: a straight arrow for a force, an arc around its axis for a torque, each with its number.
+ * Both forces have one scale, and both torques.
+ */
+
+import * as THREE from 'three'
+import { engineering } from './engineering'
+import type { Shape } from './protocol'
+
+const COLOURS = { force: 0xd9480f, torque: 0x7c3aed }
+/** An arrow, its length or its radius, m; then where its number stands. */
+interface Arrow {
+  kind: 'force' | 'torque'
+  group: THREE.Group
+  shaft: THREE.Mesh
+  head: THREE.Mesh
+  label: HTMLElement
+  tip: THREE.Vector3
+}
+
+/** What panels cover at each side of the window, px. */
+export interface Insets { left: number; right: number; top: number; bottom: number }
+
+const ARC = 1.5 * Math.PI
+
+function build(kind: 'force' | 'torque', labels: HTMLElement): Arrow {
+  const material = new THREE.MeshStandardMaterial({ color: COLOURS[kind], roughness: 0.5, emissive: COLOURS[kind], emissiveIntensity: 0.35 })
+  const shaft =
+    kind === 'force'
+      ? new THREE.Mesh(new THREE.CylinderGeometry(1, 1, 1, 14).translate(0, 0.5, 0).rotateX(Math.PI / 2), material)
+      : new THREE.Mesh(new THREE.TorusGeometry(1, 0.05, 10, 48, ARC), material)
+  const head = new THREE.Mesh(new THREE.ConeGeometry(1, 2.6, 18).rotateX(Math.PI / 2), material)
+  const group = new THREE.Group()
+  group.add(shaft, head)
+  const label = document.createElement('span')
+  label.className = `label ${kind}`
+  labels.append(label)
+  return { kind, group, shaft, head, label, tip: new THREE.Vector3() }
+}
+
+export class Arrows {
+  readonly group = new THREE.Group()
+  #arrows: Arrow[]
+
+  constructor(labels: HTMLElement) {
+    this.#arrows = (['force', 'torque', 'force', 'torque'] as const).map((kind) => build(kind, labels))
+    this.group.add(...this.#arrows.map((arrow) => arrow.group))
+  }
+
+  /** `size` is that of the scene, `starts` where the thread's start and end are. */
+  show(shape: Shape, visible: boolean, size: number, starts: THREE.Vector3[]): void {
+    const { start, end } = shape.report
+    const vectors = [start.force, start.moment, end.force, end.moment].map((v) => new THREE.Vector3(...v))
+    const largest = [0, 1].map((i) => Math.max(vectors[i].length(), vectors[i + 2].length()))
+    this.#arrows.forEach((arrow, i) => {
+      const amount = vectors[i].length()
+      const part = amount / largest[i % 2]
+      arrow.group.visible = visible && amount > 1e-12 && part > 1e-3
+      if (!arrow.group.visible) return
+      const direction = vectors[i].clone().normalize()
+      arrow.group.position.copy(starts[i < 2 ? 0 : 1])
+      arrow.group.quaternion.setFromUnitVectors(new THREE.Vector3(0, 0, 1), direction)
+      if (arrow.kind === 'force') this.#straight(arrow, Math.max(0.19 * part, 0.05) * size, 0.0026 * size)
+      else this.#arc(arrow, (0.035 + 0.03 * part) * size)
+      arrow.label.textContent = engineering(amount, arrow.kind === 'force' ? 'N' : 'N·m')
+      arrow.group.updateMatrixWorld()
+      arrow.tip.applyMatrix4(arrow.group.matrixWorld)
+    })
+  }
+
+  #straight(arrow: Arrow, length: number, thick: number): void {
+    const head = 2.6 * 3 * thick
+    arrow.shaft.scale.set(thick, thick, length - head)
+    arrow.head.scale.setScalar(3 * thick)
+    arrow.head.position.set(0, 0, length - head / 2)
+    arrow.tip.set(0, 0, length)
+  }
+
+  #arc(arrow: Arrow, radius: number): void {
+    arrow.shaft.scale.setScalar(radius)
+    arrow.head.scale.setScalar(0.16 * radius)
+    arrow.head.position.set(radius * Math.cos(ARC), radius * Math.sin(ARC), 0)
+    // The cone's axis, z, along the arc's tangent at its end.
+    arrow.head.quaternion.setFromUnitVectors(new THREE.Vector3(0, 0, 1), new THREE.Vector3(-Math.sin(ARC), Math.cos(ARC), 0))
+    arrow.tip.set(radius * 1.1, 0, 0)
+  }
+
+  /** Puts the numbers beside their arrows, within what panels leave free, and apart from each other. */
+  place(camera: THREE.Camera, width: number, height: number, insets: Insets): void {
+    const taken: { x: number; y: number }[] = []
+    for (const arrow of this.#arrows) {
+      arrow.label.hidden = !arrow.group.visible
+      if (arrow.label.hidden) continue
+      const at = arrow.tip.clone().project(camera)
+      let [x, y] = [((at.x + 1) / 2) * width, ((1 - at.y) / 2) * height]
+      const foot = arrow.group.position.clone().project(camera)
+      // Away from the arrow's foot.
+      x += at.x >= foot.x ? 8 : -8 - arrow.label.offsetWidth
+      y -= 10
+      while (taken.some((other) => Math.abs(other.x - x) < 80 && Math.abs(other.y - y) < 20)) y += 21
+      x = Math.min(Math.max(x, insets.left + 4), width - insets.right - arrow.label.offsetWidth - 4)
+      y = Math.min(Math.max(y, insets.top + 4), height - insets.bottom - 24)
+      taken.push({ x, y })
+      arrow.label.style.transform = `translate(${x.toFixed(1)}px, ${y.toFixed(1)}px)`
+    }
+  }
+}

@@ -1,0 +1,51 @@
+/** The inspector's controls: each a label, a unit and a sentence, in one row. */
+
+function row(parent: HTMLElement, label: string, unit: string, help: string, control: HTMLElement): HTMLLabelElement {
+  const line = document.createElement('label')
+  line.title = help
+  const text = Object.assign(document.createElement('span'), { textContent: label })
+  const of = Object.assign(document.createElement('span'), { textContent: unit, className: 'unit' })
+  line.append(text, control, of)
+  parent.append(line)
+  return line
+}
+
+export function numberInput(parent: HTMLElement, id: string, label: string, unit: string, help: string, change: (value: number) => void): HTMLInputElement {
+  const input = Object.assign(document.createElement('input'), { id, type: 'number', step: 'any', autocomplete: 'off' })
+  const line = row(parent, label, unit, help, input)
+  input.addEventListener('input', () => (input.dataset.typing = 'yes'))
+  input.addEventListener('blur', () => delete input.dataset.typing)
+  input.addEventListener('change', () => {
+    delete input.dataset.typing
+    const good = input.value.trim() !== '' && Number.isFinite(input.valueAsNumber)
+    line.classList.toggle('bad', !good)
+    input.setAttribute('aria-invalid', String(!good))
+    if (good) change(input.valueAsNumber)
+  })
+  return input
+}
+
+export function choice<Value extends string>(
+  parent: HTMLElement, id: string, label: string, help: string, options: [Value, string][], change: (value: Value) => void,
+): HTMLSelectElement {
+  const select = Object.assign(document.createElement('select'), { id })
+  for (const [value, text] of options) select.append(new Option(text, value))
+  select.addEventListener('change', () => change(select.value as Value))
+  row(parent, label, '', help, select).classList.add('wide')
+  return select
+}
+
+export function checkbox(parent: HTMLElement, id: string, label: string, help: string, checked: boolean, change: (value: boolean) => void): HTMLInputElement {
+  const input = Object.assign(document.createElement('input'), { id, type: 'checkbox', checked })
+  input.addEventListener('change', () => change(input.checked))
+  row(parent, label, '', help, input)
+  return input
+}
+
+/** Writes a number where nobody is typing, and takes back that it was bad. */
+export function write(input: HTMLInputElement, text: string): void {
+  if (input.dataset.typing) return
+  input.value = text
+  input.removeAttribute('aria-invalid')
+  input.closest('label')?.classList.remove('bad')
+}

@@ -1,0 +1,74 @@
+/** The strip of numbers, and the badge that says whether the shape can be trusted. */
+
+import { engineering, threeDigits } from './engineering'
+import type { Plot } from './plot'
+import type { Report, Shape } from './protocol'
+
+/** How many solves the spread of the solve time looks back on. */
+const SOLVES = 300
+
+export interface Verdict {
+  kind: 'stable' | 'converged' | 'unstable' | 'failed' | 'away'
+  badge: string
+  /** What went wrong and what to do, where something did. */
+  advice: string | null
+}
+
+/** What a report comes to. */
+export function judge(report: Report): Verdict {
+  if (report.beyond > 0) {
+    return { kind: 'away', badge: `out of reach by ${(1e3 * report.beyond).toFixed(1)} mm`, advice: null }
+  }
+  if (report.status === 'failed') {
+    const way = 'The last good shape stays. Bring the hand back a little, turn it the other way, or hold the thread through the spring.'
+    return { kind: 'failed', badge: 'failed', advice: `${way}\n\n${report.reason}` }
+  }
+  if (report.morse_index === null) return { kind: 'converged', badge: 'converged', advice: null }
+  if (report.morse_index === 0) return { kind: 'stable', badge: 'stable', advice: null }
+  return { kind: 'unstable', badge: 'unstable', advice: null }
+}
+
+export class Readout {
+  readonly times: number[] = []
+  #badge = document.getElementById('badge')!
+  #live = document.getElementById('live')!
+  #said = ''
+
+  constructor(private plot: Plot) {}
+
+  clear(): void {
+    this.times.length = 0
+    this.plot.clear()
+  }
+
+  /** `solved` says whether the shape comes from a solve of its own, and not from the way to an earlier hand. */
+  show(shape: Shape, solved: boolean): void {
+    const { report } = shape
+    if (solved) this.times.push(shape.milliseconds)
+    if (this.times.length > SOLVES) this.times.shift()
+    const sorted = [...this.times].sort((a, b) => a - b)
+    const at = (part: number) => sorted[Math.min(sorted.length - 1, Math.floor(part * sorted.length))]
+    const [force, torque] = [report.end.force, report.end.moment].map((v) => Math.hypot(...v))
+    const texts: Record<string, string> = {
+      force: engineering(force, 'N') + (report.saturated ? ' (limit)' : ''),
+      torque: engineering(torque, 'N·m'),
+      energy: engineering(report.elastic_energy, 'J'),
+      method: `${report.method}, ${report.elements} el.`,
+      newton: `${report.iterations} it., ${report.residual?.toExponential(1) ?? '–'}`,
+      time: sorted.length ? `${threeDigits(at(0.5))} ms, p99 ${threeDigits(at(0.99))}` : '–',
+    }
+    for (const [id, text] of Object.entries(texts)) document.getElementById(id)!.textContent = text
+    this.plot.add(force, torque)
+    // While the worker is on its way, the verdict waits.
+    if (!report.settling) this.say(judge(report))
+  }
+
+  say(verdict: Pick<Verdict, 'kind' | 'badge'>): void {
+    this.#badge.textContent = verdict.badge
+    this.#badge.className = verdict.kind
+    if (this.#said === verdict.kind) return
+    // Only a change is read out, and not every millimetre.
+    this.#said = verdict.kind
+    this.#live.textContent = verdict.badge
+  }
+}

@@ -1,0 +1,171 @@
+// The inspector: every control changes what it says, and what is refused is said and taken back.
+
+import assert from 'node:assert/strict'
+import { after, before, test } from 'node:test'
+import { badge, changes, done, openPage, openScene, start, text, type, until, value } from './browser.mjs'
+
+let context
+before(async () => (context = await start()))
+after(async () => context.stop())
+
+const unfold = (page, group) => page.locator('summary', { hasText: group }).click()
+
+test('every number of the strand changes the solution, and undo takes it back', async () => {
+  const { page, complaints } = await openPage(context, context.address)
+  const numbers = { radius: 0.09, youngs: 2, poisson: 0.3, density: 1000, kappa1: 3, kappa2: 2, tau: 5, gravity: 5, length: 310 }
+  for (const [id, number] of Object.entries(numbers)) await changes(page, 'energy', () => type(page, id, number))
+  await changes(page, 'energy', () => page.locator('#undo').click())
+  assert.equal(await value(page, 'length'), '300')
+  await changes(page, 'energy', () => page.locator('#redo').click())
+  assert.equal(await value(page, 'length'), '310')
+  await page.locator('#kinematics').selectOption('cosserat')
+  await until(page, () => document.getElementById('undo').disabled === false)
+  await badge(page, 'stable')
+  assert.deepEqual(complaints, [])
+  await page.close()
+})
+
+test('a scene shows the numbers that it has: of its section, of its coil', async () => {
+  const { page, complaints } = await openPage(context, context.address)
+  const shown = async () => page.locator('#strand label:visible input').evaluateAll((all) => all.map((one) => one.id))
+  await openScene(page, 'telephone_cord')
+  assert.ok((await shown()).includes('helix-radius'))
+  assert.ok(!(await shown()).includes('kappa1'))
+  await changes(page, 'energy', () => type(page, 'helix-radius', 6.1))
+  await changes(page, 'energy', () => type(page, 'helix-pitch', 6.3))
+  await openScene(page, 'hair_curl')
+  await changes(page, 'energy', () => type(page, 'a', 0.042))
+  await changes(page, 'energy', () => type(page, 'b', 0.03))
+  await openScene(page, 'cantilever')
+  await changes(page, 'energy', () => type(page, 'width', 0.6))
+  await changes(page, 'energy', () => type(page, 'height', 20))
+  assert.deepEqual(complaints, [])
+  await page.close()
+})
+
+test('the hand is put by numbers, and its modes and its spring work', async () => {
+  const { page, complaints } = await openPage(context, context.address)
+  for (const [id, number] of [['hand-x', 160], ['hand-y', 20], ['hand-z', 70], ['turn-x', -170], ['turn-y', 50], ['turn-z', -175]]) {
+    await type(page, id, number)
+    await done(page)
+    assert.ok(Math.abs(Number(await value(page, id)) - number) < 0.1, id)
+  }
+  await badge(page, 'stable')
+  await page.locator('#mode').selectOption('coupling')
+  await changes(page, 'energy', () => type(page, 'coupling-0', 0.01))
+  await changes(page, 'energy', () => type(page, 'coupling-1', 0.0001))
+  for (const [i, number] of [[2, 0.02], [3, 0.000002]]) {
+    await type(page, `coupling-${i}`, number)
+    await done(page)
+    assert.equal(Number(await value(page, `coupling-${i}`)), number)
+  }
+  await type(page, 'coupling-4', 0.00002)
+  await until(page, () => document.getElementById('force').textContent.includes('limit'))
+  await type(page, 'coupling-4', 1)
+  await until(page, () => !document.getElementById('force').textContent.includes('limit'))
+  await type(page, 'coupling-5', 0.01)
+  await done(page)
+  assert.equal(Number(await value(page, 'coupling-5')), 0.01)
+  await page.locator('#mode').selectOption('scene')
+  await until(page, () => document.getElementById('hand-x').value === '170.00')
+  await badge(page, 'stable')
+  await page.locator('#mode').selectOption('free')
+  await until(page, () => document.getElementById('force').textContent === '0 N')
+  await badge(page, 'stable')
+  // The mode is taken back too.
+  await changes(page, 'mode', () => page.locator('#undo').click())
+  assert.equal(await value(page, 'mode'), 'scene')
+  assert.deepEqual(complaints, [])
+  await page.close()
+})
+
+test('the solver’s controls hold, and a number that is refused is explained and goes back', async () => {
+  const { page, complaints } = await openPage(context, context.address)
+  await unfold(page, 'Solver')
+  await type(page, 'elements', 80)
+  await until(page, () => document.getElementById('method').textContent.includes('80 el.'))
+  await page.locator('#order').selectOption('4')
+  await type(page, 'tolerance', '1e-8')
+  await done(page)
+  await badge(page, 'stable')
+  assert.equal(await value(page, 'order'), '4')
+  assert.equal(Number(await value(page, 'tolerance')), 1e-8)
+  await type(page, 'radius', -1)
+  await until(page, () => document.getElementById('message').textContent.includes('radius'))
+  assert.equal(await value(page, 'radius'), '0.085')
+  await page.locator('#message-close').click()
+  assert.ok(await page.locator('#message').isHidden())
+  await page.locator('#radius').fill('')
+  await page.locator('#radius').press('Enter')
+  assert.equal(await page.locator('#radius').getAttribute('aria-invalid'), 'true')
+  await page.locator('#reset').click()
+  await until(page, () => document.getElementById('method').textContent.includes('200 el.'))
+  assert.equal(await page.locator('#radius').getAttribute('aria-invalid'), null)
+  assert.equal(await value(page, 'radius'), '0.085')
+  assert.deepEqual(complaints, [])
+  await page.close()
+})
+
+test('where no equilibrium is found the last good shape stays, and the page says what to do', async () => {
+  const { page, complaints } = await openPage(context, context.address)
+  const shape = () => page.evaluate(() => window.strands.solver.ask({ kind: 'csv' }).then((reply) => reply.data))
+  const before = await shape()
+  // No number is a place that cannot be held.
+  await page.evaluate(() => {
+    const { stage, moveHand } = window.strands
+    stage.hand.position.x = NaN
+    moveHand()
+  })
+  await badge(page, 'failed')
+  assert.match(await text(page, 'message'), /last good shape stays.*Bring the hand back/s)
+  assert.equal(await text(page, 'live'), 'failed')
+  assert.equal(await shape(), before)
+  await type(page, 'hand-x', 168)
+  await badge(page, 'stable')
+  assert.ok(await page.locator('#message').isHidden())
+  // And one that is refused.
+  await page.locator('summary', { hasText: 'Solver' }).click()
+  await type(page, 'tolerance', '1e-300')
+  await until(page, () => document.getElementById('message').textContent.includes('tolerance'))
+  await page.keyboard.press('Escape')
+  assert.ok(await page.locator('#message').isHidden())
+  assert.deepEqual(complaints, [])
+  await page.close()
+})
+
+test('the view: colours, their map, range and legend, thickness, arrows and glyphs', async () => {
+  const { page, complaints } = await openPage(context, context.address)
+  await unfold(page, 'View')
+  const legends = { twist: /Twist.*1\/m/, tension: /Tension.*[µn]N/, moment: /Bending moment.*N·m/, energy: /Elastic energy.*J\/m/, curvature: /Curvature.*1\/m/ }
+  for (const [by, pattern] of Object.entries(legends)) {
+    await page.locator('#colour').selectOption(by)
+    assert.match(await text(page, 'legend'), pattern)
+  }
+  const bar = () => page.locator('#legend i').getAttribute('style')
+  const viridis = await bar()
+  await page.locator('#map').selectOption('cividis')
+  assert.notEqual(await bar(), viridis)
+  await page.locator('#fixed').check()
+  await type(page, 'range-low', 1.5)
+  await type(page, 'range-high', 50)
+  assert.match(await text(page, 'legend'), /fixed range.*1\.50 1\/m.*50\.0 1\/m/)
+  await page.locator('#fixed').uncheck()
+  assert.doesNotMatch(await text(page, 'legend'), /fixed/)
+  await type(page, 'scale', 8)
+  assert.match(await text(page, 'legend'), /8× as thick/)
+  assert.ok((await page.locator('.label:visible').count()) >= 3)
+  assert.match((await page.locator('.label.force').first().textContent()) ?? '', /^\d[\d.]{2,3} µN$/)
+  await page.locator('#arrows').uncheck()
+  await until(page, () => [...document.querySelectorAll('.label')].every((label) => label.hidden))
+  const picture = () => page.evaluate(() => new Promise((done) => requestAnimationFrame(() => requestAnimationFrame(() => done(window.strands.stage.canvas.toDataURL())))))
+  for (const id of ['directors', 'internalForce', 'internalMoment']) {
+    const before = await picture()
+    await page.locator(`#${id}`).check()
+    assert.notEqual(await picture(), before, id)
+    await page.locator(`#${id}`).uncheck()
+  }
+  await page.locator('#colour').selectOption('nothing')
+  assert.doesNotMatch(await text(page, 'legend'), /Curvature/)
+  assert.deepEqual(complaints, [])
+  await page.close()
+})
