@@ -38,7 +38,7 @@ export function choice<Value extends string>(
 export function checkbox(parent: HTMLElement, id: string, label: string, help: string, checked: boolean, change: (value: boolean) => void): HTMLInputElement {
   const input = Object.assign(document.createElement('input'), { id, type: 'checkbox', checked })
   input.addEventListener('change', () => change(input.checked))
-  row(parent, label, '', help, input)
+  row(parent, label, '', help, input).classList.add('tick')
   return input
 }
 

@@ -16,6 +16,11 @@ export interface Edits {
   look: (change: Partial<ViewOptions>) => void
 }
 
+/** A number that fits its field. */
+function short(value: number): string {
+  return value !== 0 && Math.abs(value) < 1e-3 ? value.toExponential(3).replace(/\.?0*e/, 'e') : String(Number(value.toPrecision(4)))
+}
+
 const group = (id: string) => document.getElementById(id)!
 
 export class Inspector {
@@ -46,7 +51,7 @@ export class Inspector {
   }
 
   fillCoupling(values: number[]): void {
-    values.forEach((value, i) => write(this.#numbers.get(`coupling-${i}`)!, String(Number(value.toPrecision(4)))))
+    values.forEach((value, i) => write(this.#numbers.get(`coupling-${i}`)!, short(value)))
   }
 
   /** Writes what belongs to a shape: where the hand is, and how it holds on. */
@@ -56,7 +61,6 @@ export class Inspector {
     ;['x', 'y', 'z'].forEach((axis, i) => write(this.#numbers.get(`hand-${axis}`)!, (shape.hand[i] * 1e3).toFixed(2)))
     const angles = this.stage.hand.angles
     ;['x', 'y', 'z'].forEach((axis, i) => write(this.#numbers.get(`turn-${axis}`)!, angles[i].toFixed(1)))
-    document.body.dataset.mode = shape.report.mode
   }
 
   /** The view's controls as the view is. */
@@ -103,7 +107,6 @@ export class Inspector {
       this.#number('hand', `coupling-${i}`, label, unit, help, () => {
         this.edits.coupling(couplingFields.map((_, k) => Number(this.#numbers.get(`coupling-${k}`)!.value)))
       })
-      this.#numbers.get(`coupling-${i}`)!.closest('label')!.classList.add('spring')
     })
   }
 

@@ -126,7 +126,7 @@ export class Props {
     this.#parts.clamp.scale.setScalar(wide)
     this.below.position.set(start.x, start.y, floor)
     const height = start.z - floor
-    this.#parts.tissue.scale.set(0.036 * scale, 0.03 * scale, height + 0.0006 * scale)
+    this.#parts.tissue.scale.set(0.03 * scale, 0.025 * scale, height + 0.0006 * scale)
     this.#parts.stand.scale.set(scale, scale, height)
     this.#parts.stand.visible &&= height < HANGS * size
     const [, foot] = this.#parts.stand.children

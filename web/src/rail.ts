@@ -1,4 +1,4 @@
-/** The rail of scenes, each with its picture. `npm run thumbnails` makes the pictures. */
+/** The rail of scenes, each with its picture. `npm run pictures` makes the pictures. */
 
 /** The scene's name for a person. */
 export function spoken(name: string): string {

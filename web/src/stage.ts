@@ -29,6 +29,8 @@ const DARK = [0x10151c, 0x1a212b, 0x232c38]
 const LEAST_RADIUS = 0.0042
 /** How far below the thread the ground is, over the size of the scene. */
 const DROP = 0.07
+/** Room around the thread for arrows and needle, over the size of the scene. */
+const MARGIN = { x: 0.15, y: 0.2 }
 const FIRST_VIEW = new THREE.Vector3(0.35, -1.45, 0.55).normalize()
 
 export class Stage {
@@ -49,8 +51,8 @@ export class Stage {
   #glyphs = new Glyphs()
   #arrows: Arrows
   #key = new THREE.DirectionalLight(0xfff0dc, 2.6)
-  #rim = new THREE.DirectionalLight(0xd6e6ff, 0.9)
-  #fill = new THREE.HemisphereLight(0xe6eeff, 0xa39a8c, 1.35)
+  #rim = new THREE.DirectionalLight(0xd6e6ff)
+  #fill = new THREE.HemisphereLight(0xe6eeff, 0xa39a8c)
   #gap = new THREE.Line(new THREE.BufferGeometry(), new THREE.LineDashedMaterial({ color: 0xd0242f }))
   #shape: Shape | null = null
   #floor = 0
@@ -108,6 +110,9 @@ export class Stage {
 
   setTheme(dark: boolean): void {
     this.#scene.background = backdrop(dark ? DARK : LIGHT)
+    // Dark colours need an edge of light to stand out from a dark backdrop.
+    this.#rim.intensity = dark ? 3.2 : 0.9
+    this.#fill.intensity = dark ? 1.9 : 1.35
     this.#ground.setTheme(dark)
     this.#dirty = true
   }
@@ -243,12 +248,20 @@ export class Stage {
   #lookAt(shape: Shape, direction: THREE.Vector3): void {
     const { box, size } = this.#measure(shape)
     const centre = box.getCenter(new THREE.Vector3())
-    // The free part of the window decides how near the eye can come.
+    // So near that thread and arrows fill the free part of the window.
     const { clientWidth: width, clientHeight: height } = this.canvas
     const { left, right, top, bottom } = this.#insets
-    const free = Math.min(Math.max(width - left - right, 120), 1.25 * Math.max(height - top - bottom, 120))
     const tan = Math.tan((this.camera.fov * Math.PI) / 360)
-    const distance = (0.66 * size * height) / (free * tan)
+    const [wide, high] = [width - left - right, height - top - bottom].map((free) => (tan * Math.max(free, 120)) / height)
+    const sideways = new THREE.Vector3().crossVectors(this.camera.up, direction).normalize()
+    const upwards = new THREE.Vector3().crossVectors(direction, sideways)
+    let distance = 0
+    for (let i = 9; i < shape.frames.length; i += 12) {
+      const at = new THREE.Vector3().fromArray(shape.frames, i).sub(centre)
+      const x = Math.abs(at.dot(sideways)) + MARGIN.x * size
+      const y = Math.abs(at.dot(upwards)) + MARGIN.y * size
+      distance = Math.max(distance, at.dot(direction) + Math.max(x / wide, y / high))
+    }
     this.orbit.target.copy(centre)
     this.camera.position.copy(centre).addScaledVector(direction, distance)
     this.camera.near = 0.02 * this.size

@@ -33,9 +33,12 @@ export async function start() {
   return { browser, address, stop: async () => (await browser.close(), server.close()) }
 }
 
-/** A page with the suture open, its hints put away; collects what the console complains about. */
+/**
+ * A page with the suture open, its hints put away; collects what the console complains about. Drawn in software, so with half as many pixels
+ * each way.
+ */
 export async function openPage(context, address, size = { width: 800, height: 500 }, scheme = 'light', options = {}) {
-  const page = await context.browser.newPage({ viewport: size, colorScheme: scheme, acceptDownloads: true, ...options })
+  const page = await context.browser.newPage({ viewport: size, colorScheme: scheme, acceptDownloads: true, deviceScaleFactor: 0.5, ...options })
   const complaints = []
   page.on('pageerror', (error) => complaints.push(String(error)))
   page.on('console', (message) => {

@@ -72,6 +72,34 @@ test('300 poses on a closed path are solved; how long that takes is printed', as
   await page.close()
 })
 
+test('a hand that cannot be followed does not hold up a newer one; how long that waits is printed', async () => {
+  const { page, complaints } = await openPage(context, context.address)
+  const waits = await page.evaluate(async () => {
+    const { stage, solver } = window.strands
+    const start = stage.hand.pose()
+    const waits = []
+    // Drawing in software would take longer than what is measured.
+    stage.draw = () => undefined
+    for (let i = 1; i <= 40; i++) {
+      const far = [...start]
+      far[0] += 0.003 * i
+      far[2] += 0.01 * i
+      await solver.move(far)
+      // Some time into the way there, a newer hand.
+      await new Promise((resolve) => setTimeout(resolve, i % 7))
+      const asked = performance.now()
+      await solver.move(start)
+      waits.push(performance.now() - asked)
+    }
+    return waits.sort((a, b) => a - b)
+  })
+  console.log(`a newer hand waited ${waits[waits.length >> 1].toFixed(1)} ms (median), ${waits[waits.length - 1].toFixed(1)} ms (most)`)
+  await done(page)
+  assert.equal(await value(page, 'hand-z'), '60.00')
+  assert.deepEqual(complaints, [])
+  await page.close()
+})
+
 test('of many moves at once the newest wins, also after one that cannot be reached', async () => {
   const { page, complaints } = await openPage(context, context.address)
   const solved = await page.evaluate(async () => {
