@@ -98,13 +98,18 @@ function show(next: Shape, solved = true): void {
   stage.show(next)
   readout.show(next, solved)
   inspector.show(next)
-  if (!next.report.settling) say(judge(next.report).advice)
+  const { advice } = judge(next.report)
+  if (!next.report.settling) say(advice, advice && next.report.reason)
   showLegend(element('legend'), stage.view, stage.tube.range)
 }
 
-function say(message: string | null): void {
+/** Says what went wrong and what to do; what only an expert wants to know is folded away. */
+function say(message: string | null, details: string | null = null): void {
   element('message').hidden = !message
-  element('message-text').textContent = message
+  // Written anew it would be read out anew.
+  if (element('message-text').textContent !== message) element('message-text').textContent = message
+  element('message-details').hidden = !details
+  element('message-more').textContent = details
 }
 
 /** Opens a scene in place of this one, and gives whether that worked. */

@@ -10,7 +10,7 @@ const SOLVES = 300
 export interface Verdict {
   kind: 'stable' | 'converged' | 'unstable' | 'failed' | 'away'
   badge: string
-  /** What went wrong and what to do, where something did. */
+  /** What to do where something went wrong. */
   advice: string | null
 }
 
@@ -20,8 +20,8 @@ export function judge(report: Report): Verdict {
     return { kind: 'away', badge: `out of reach by ${(1e3 * report.beyond).toFixed(1)} mm`, advice: null }
   }
   if (report.status === 'failed') {
-    const way = 'The last good shape stays. Bring the hand back a little, turn it the other way, or hold the thread through the spring.'
-    return { kind: 'failed', badge: 'failed', advice: `${way}\n\n${report.reason}` }
+    const advice = 'No equilibrium was found here, and the last good shape stays. Bring the hand back a little, or turn it another way.'
+    return { kind: 'failed', badge: 'failed', advice }
   }
   if (report.morse_index === null) return { kind: 'converged', badge: 'converged', advice: null }
   if (report.morse_index === 0) return { kind: 'stable', badge: 'stable', advice: null }

@@ -52,20 +52,17 @@ test('the hand is put by numbers, and its modes and its spring work', async () =
   }
   await badge(page, 'stable')
   await page.locator('#mode').selectOption('coupling')
-  await changes(page, 'energy', () => type(page, 'coupling-0', 0.01))
-  await changes(page, 'energy', () => type(page, 'coupling-1', 0.0001))
-  for (const [i, number] of [[2, 0.02], [3, 0.000002]]) {
+  for (const [i, number] of [[0, 0.01], [1, 0.0001], [2, 0.02], [3, 0.000002]]) {
     await type(page, `coupling-${i}`, number)
     await done(page)
     assert.equal(Number(await value(page, `coupling-${i}`)), number)
   }
-  await type(page, 'coupling-4', 0.00002)
-  await until(page, () => document.getElementById('force').textContent.includes('limit'))
-  await type(page, 'coupling-4', 1)
-  await until(page, () => !document.getElementById('force').textContent.includes('limit'))
-  await type(page, 'coupling-5', 0.01)
-  await done(page)
-  assert.equal(Number(await value(page, 'coupling-5')), 0.01)
+  for (const [i, number] of [[4, 2], [5, 0.01]]) {
+    await type(page, `coupling-${i}`, number)
+    await done(page)
+    assert.equal(Number(await value(page, `coupling-${i}`)), number)
+  }
+  await badge(page, 'stable', 'unstable')
   await page.locator('#mode').selectOption('scene')
   await until(page, () => document.getElementById('hand-x').value === '170.00')
   await badge(page, 'stable')
@@ -75,6 +72,20 @@ test('the hand is put by numbers, and its modes and its spring work', async () =
   // The mode is taken back too.
   await changes(page, 'mode', () => page.locator('#undo').click())
   assert.equal(await value(page, 'mode'), 'scene')
+  assert.deepEqual(complaints, [])
+  await page.close()
+})
+
+test('a spring pulls up to the device’s limit and no further', async () => {
+  const { page, complaints } = await openPage(context, context.address)
+  await openScene(page, 'cantilever')
+  await page.locator('#mode').selectOption('coupling')
+  await type(page, 'hand-z', -120)
+  await done(page)
+  assert.doesNotMatch(await text(page, 'force'), /limit/)
+  await type(page, 'coupling-4', 0.05)
+  await type(page, 'hand-z', -100)
+  await until(page, () => document.getElementById('force').textContent === '50.0 mN (limit)')
   assert.deepEqual(complaints, [])
   await page.close()
 })
@@ -117,7 +128,7 @@ test('where no equilibrium is found the last good shape stays, and the page says
     moveHand()
   })
   await badge(page, 'failed')
-  assert.match(await text(page, 'message'), /last good shape stays.*Bring the hand back/s)
+  assert.match(await text(page, 'message'), /last good shape stays.*Bring the hand back.*Details.*overflowed/s)
   assert.equal(await text(page, 'live'), 'failed')
   assert.equal(await shape(), before)
   await type(page, 'hand-x', 168)

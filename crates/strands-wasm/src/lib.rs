@@ -4,10 +4,14 @@
 //! arrays of numbers, everything else as JSON. Errors are the texts that a person reads.
 
 mod bench;
+mod hand;
+mod numbers;
 mod session;
 mod settle;
 
-use session::{HandMode, State, coupling_from, coupling_numbers};
+use hand::HandMode;
+use numbers::{coupling_from, coupling_numbers};
+use session::State;
 use strands::math::{Pose, Quat, Vec3};
 use wasm_bindgen::prelude::*;
 
@@ -64,8 +68,8 @@ impl Session {
     /// # Errors
     /// Where the mode is none of these.
     pub fn set_mode(&mut self, mode: &str) -> Result<(), String> {
-        self.state.mode =
-            HandMode::from_name(mode).ok_or_else(|| format!("there is no hand mode `{mode}`"))?;
+        let known = HandMode::from_name(mode).ok_or_else(|| format!("there is no hand mode `{mode}`"))?;
+        self.state.set_mode(known);
         Ok(())
     }
 

@@ -1,57 +1,20 @@
 //! The state behind a session: a scene, the hand, and the last good solutions.
 
 use strands::coupling::{Grip, LastFrame, VirtualCoupling};
-use strands::math::{Mat3, Pose, Strain, Vec3, Wrench};
-use strands::rod::Kinematics;
-use strands::statics::{End, Guess, Problem, Settings, Solution, SolveReport, Workspace, solve};
+use strands::math::{Pose, Quat, Strain, Wrench};
+use strands::statics::{End, Guess, Settings, Solution, SolveReport, Workspace, solve};
 use strands_scene::{FixName, Model, ModelRod, Place, Scene, SceneFile, SupportFile};
 
-use crate::settle::{Bit, Start, Way, within};
-
-/// How the hand holds the rod's end.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum HandMode {
-    /// As the scene has it.
-    Scene,
-    /// The hand imposes its frame.
-    Pose,
-    /// The hand holds on through a spring and damper.
-    Coupling,
-    /// Nobody holds it.
-    Free,
-}
-
-const MODES: [(&str, HandMode); 4] = [
-    ("scene", HandMode::Scene),
-    ("pose", HandMode::Pose),
-    ("coupling", HandMode::Coupling),
-    ("free", HandMode::Free),
-];
-
-impl HandMode {
-    pub fn from_name(name: &str) -> Option<Self> {
-        MODES.iter().find(|(known, _)| *known == name).map(|(_, mode)| *mode)
-    }
-
-    pub fn name(self) -> &'static str {
-        MODES.iter().find(|(_, mode)| *mode == self).map_or("", |(name, _)| name)
-    }
-
-    /// Whether the hand says where the end is, and not the end where the hand is.
-    fn leads(self) -> bool {
-        matches!(self, Self::Pose | Self::Coupling)
-    }
-}
-
-/// How much of its length an inextensible thread is held at, at most.
-const REACH: f64 = 0.985;
+use crate::hand::{HandMode, coupling_for, reachable};
+use crate::numbers::{coupling_from, coupling_numbers, flat, unflat, vector};
+use crate::settle::{Bit, Start, Way};
 
 pub struct State {
     scene: Scene,
     solutions: Vec<Solution>,
     held: usize,
     workspace: Workspace,
-    pub mode: HandMode,
+    mode: HandMode,
     pub hand: Pose,
     pub coupling: VirtualCoupling,
     /// The hand of the last solution.
@@ -81,7 +44,7 @@ impl State {
         let coupling = rod.hand.unwrap_or_else(|| coupling_for(rod));
         let mode = if rod.problem.end.fixed == [true; 6] { HandMode::Pose } else { HandMode::Scene };
         let outcome = Outcome { report: solutions[held].report.clone(), reason: None, saturated: false };
-        let home = Some(Start { guess: solutions[held].guess, hand });
+        let home = Some(Start::new(&solutions[held], hand, false));
         Ok(Self {
             scene,
             solutions,
@@ -154,6 +117,21 @@ impl State {
         restored
     }
 
+    /// Changes how the hand holds on. A spring takes hold where it does what has held the thread so far, so that nothing moves.
+    pub fn set_mode(&mut self, mode: HandMode) {
+        if mode == HandMode::Coupling && self.mode != mode {
+            let (held, reaction) = (tip(self.solution()), self.solution().reactions[1]);
+            let by_turn = reaction.moment * (1.0 / self.coupling.angular_stiffness);
+            self.hand = Pose {
+                rotation: Quat::from_rotation_vector(by_turn).to_matrix() * held.rotation,
+                position: held.position + reaction.force * (1.0 / self.coupling.linear_stiffness),
+            };
+            self.last_hand = self.hand;
+        }
+        self.mode = mode;
+        self.way = None;
+    }
+
     pub fn file(&self) -> &SceneFile {
         &self.scene.file
     }
@@ -202,7 +180,9 @@ impl State {
         let settings =
             if leads { Settings { max_halvings: 0, restart_from_rest: false, ..whole } } else { whole };
         let last = self.solution();
-        let (guess, stable) = (last.guess, last.report.morse_index == Some(0));
+        let guess = self.last_start().guess_at(&problem.end);
+        // The stability of a thread on a spring says nothing of the branch that it is on.
+        let may_be_unstable = self.mode != HandMode::Pose || last.report.morse_index != Some(0);
         let mut found = solve(&problem, &settings, Some(&guess), &mut self.workspace);
         let is_stable = |solution: &Solution| solution.report.morse_index == Some(0);
         if !leads
@@ -213,8 +193,8 @@ impl State {
         }
         match found {
             // A search that lost stability has landed on another branch: small steps may stay on this one.
-            Ok(solution) if !leads || !stable || is_stable(&solution) => {
-                self.take(solution, self.hand);
+            Ok(solution) if may_be_unstable || is_stable(&solution) => {
+                self.take(solution, self.aim());
                 true
             }
             Ok(unstable) => {
@@ -234,7 +214,7 @@ impl State {
         let Some(mut way) = self.way.take() else { return false };
         let mut problem = self.rod().problem.clone();
         problem.end = self.end(self.rod(), 0.0);
-        let hand = if self.mode == HandMode::Pose { problem.end.pose } else { self.hand };
+        let hand = self.aim();
         match way.walk(&problem, &hand, &self.scene.model.settings, &mut self.workspace) {
             Bit::Arrived(solution) => {
                 self.take(solution, hand);
@@ -262,6 +242,7 @@ impl State {
         self.way = None;
         if !self.mode.leads() {
             self.hand = tip(self.solution());
+            self.last_hand = self.hand;
         }
         let end = self.end(self.rod(), 0.0);
         let saturated = end.grip.is_some_and(|grip| grip.saturated(&tip(self.solution())));
@@ -269,7 +250,7 @@ impl State {
     }
 
     fn set_out(&mut self, reason: String, report: SolveReport, unstable: Option<Solution>) {
-        let last = Start { guess: self.solution().guess, hand: self.last_hand };
+        let last = self.last_start();
         let others = if self.mode.leads() { self.home.into_iter().collect() } else { Vec::new() };
         self.way = Some(Way::new(last, self.solution().clone(), others, unstable));
         self.outcome = Outcome { report, reason: Some(reason), saturated: false };
@@ -289,10 +270,19 @@ impl State {
         }
     }
 
+    /// The last shape as one to start from.
+    fn last_start(&self) -> Start {
+        Start::new(self.solution(), self.last_hand, self.outcome.saturated)
+    }
+
+    /// Where the hand wants the end: within the reach of a thread that it holds firmly.
+    fn aim(&self) -> Pose {
+        if self.mode == HandMode::Pose { reachable(self.rod(), &self.hand) } else { self.hand }
+    }
+
     /// How far the hand is from what the thread reaches, m: more than nothing only where the thread cannot stretch to it.
     fn beyond(&self) -> f64 {
-        let held = reachable(self.rod(), &self.hand);
-        if self.mode == HandMode::Pose { (self.hand.position - held.position).norm() } else { 0.0 }
+        (self.hand.position - self.aim().position).norm()
     }
 
     pub fn frames(&self) -> Vec<f64> {
@@ -360,60 +350,6 @@ fn solve_all(model: &Model, workspace: &mut Workspace) -> Result<Vec<Solution>, 
 
 fn tip(solution: &Solution) -> Pose {
     solution.poses[solution.poses.len() - 1]
-}
-
-/// A coupling for a scene that gives none: stiff beside the rod, and limited to ten times what buckles it.
-fn coupling_for(rod: &ModelRod) -> VirtualCoupling {
-    let scale = rod.problem.rod.scale();
-    VirtualCoupling {
-        linear_stiffness: 200.0 * scale.force / scale.length,
-        angular_stiffness: 20.0 * scale.moment,
-        linear_damping: 0.0,
-        angular_damping: 0.0,
-        max_force: 400.0 * scale.force,
-        max_torque: 40.0 * scale.moment,
-    }
-}
-
-/// Where the end of a rod can be held for a hand.
-fn reachable(rod: &ModelRod, hand: &Pose) -> Pose {
-    let Problem { rod, start, .. } = &rod.problem;
-    let tethered = rod.kinematics() == Kinematics::Kirchhoff && start.fixed[3..] == [true; 3];
-    if tethered { within(hand, start.pose.position, REACH * rod.length()) } else { *hand }
-}
-
-pub fn coupling_numbers(c: &VirtualCoupling) -> [f64; 6] {
-    [c.linear_stiffness, c.angular_stiffness, c.linear_damping, c.angular_damping, c.max_force, c.max_torque]
-}
-
-pub fn coupling_from(numbers: [f64; 6]) -> VirtualCoupling {
-    let [linear_stiffness, angular_stiffness, linear_damping, angular_damping, max_force, max_torque] =
-        numbers;
-    VirtualCoupling {
-        linear_stiffness,
-        angular_stiffness,
-        linear_damping,
-        angular_damping,
-        max_force,
-        max_torque,
-    }
-}
-
-fn vector(numbers: &[f64]) -> Vec3 {
-    Vec3::new(numbers[0], numbers[1], numbers[2])
-}
-
-fn unflat(numbers: &[f64]) -> Pose {
-    let [d1, d2, d3, position] = [0, 3, 6, 9].map(|i| vector(&numbers[i..i + 3]));
-    Pose { rotation: Mat3 { cols: [d1, d2, d3] }, position }
-}
-
-fn flat(poses: &[Pose]) -> Vec<f64> {
-    let parts = |pose: &Pose| {
-        let [d1, d2, d3] = pose.rotation.cols;
-        [d1, d2, d3, pose.position].map(|v| v.to_array()).into_iter().flatten().collect::<Vec<f64>>()
-    };
-    poses.iter().flat_map(parts).collect()
 }
 
 #[cfg(test)]

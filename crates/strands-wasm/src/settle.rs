@@ -5,8 +5,9 @@
 //! taken when no way leads to a stable one. A start from rest, with its many
 //! routes, would take too long for a hand that moves.
 
-use strands::math::{Mat3, Pose, Quat, Vec3};
-use strands::statics::{End, Guess, Problem, Settings, Solution, Workspace, solve};
+use strands::coupling::VirtualCoupling;
+use strands::math::{Mat3, Pose, Quat};
+use strands::statics::{End, Guess, Problem, Reaction, Settings, Solution, Workspace, solve};
 
 /// Iterations of one step.
 const ITERATIONS: usize = 12;
@@ -20,8 +21,37 @@ const LARGEST_TURN: f64 = 1.0;
 /// A shape to start from, with the hand that holds it.
 #[derive(Clone, Copy, Debug)]
 pub struct Start {
-    pub guess: Guess,
+    guess: Guess,
     pub hand: Pose,
+    /// What holds its end.
+    reaction: Reaction,
+    /// Whether a spring that holds it is at its limit.
+    saturated: bool,
+}
+
+impl Start {
+    pub fn new(shape: &Solution, hand: Pose, saturated: bool) -> Self {
+        Self { guess: shape.guess, hand, reaction: shape.reactions[1], saturated }
+    }
+
+    /// Where to search for the shape that is held at `end`. On a spring the end is put where the spring does what has held it so far: a
+    /// stiff one, a little stretched or slack, would do a thousand times that, or nothing. At its limit it does the same wherever it is.
+    pub fn guess_at(&self, end: &End) -> Guess {
+        let Some(grip) = end.grip.as_ref().filter(|_| !self.saturated) else { return self.guess };
+        let VirtualCoupling { mut linear_stiffness, linear_damping, angular_stiffness, .. } = grip.coupling;
+        let mut pull = grip.hand.position * linear_stiffness - self.reaction.force;
+        if let Some(last) = &grip.last {
+            let damping = linear_damping / last.time_step;
+            pull += (grip.hand.position - last.hand.position + last.held.position) * damping;
+            linear_stiffness += damping;
+        }
+        if !(linear_stiffness > 0.0 && angular_stiffness > 0.0) {
+            return self.guess;
+        }
+        let turn = Quat::from_rotation_vector(self.reaction.moment * (-1.0 / angular_stiffness)).to_matrix();
+        let pose = Pose { rotation: turn * grip.hand.rotation, position: pull * (1.0 / linear_stiffness) };
+        Guess { pose, ..self.guess }
+    }
 }
 
 /// A way that is being walked.
@@ -74,12 +104,13 @@ impl Way {
         hold(&mut problem.end, next);
         let short =
             Settings { max_iterations: ITERATIONS, max_halvings: 0, restart_from_rest: false, ..*settings };
-        let found = solve(&problem, &short, Some(&self.at.guess), workspace).ok();
+        let found = solve(&problem, &short, Some(&self.at.guess_at(&problem.end)), workspace).ok();
         let Some(found) = found.filter(|found| self.follows(found)) else {
             self.step *= 0.5;
             return Bit::Trying;
         };
-        self.at = Start { guess: found.guess, hand: next };
+        let saturated = problem.end.grip.is_some_and(|grip| grip.saturated(&found.guess.pose));
+        self.at = Start::new(&found, next, saturated);
         if whole {
             return Bit::Arrived(found);
         }
@@ -114,20 +145,12 @@ fn hold(end: &mut End, hand: Pose) {
 }
 
 /// A place on the straight line between two poses, turned on the shorter way.
-pub fn between(from: &Pose, to: &Pose, part: f64) -> Pose {
+fn between(from: &Pose, to: &Pose, part: f64) -> Pose {
     let turn = from.between(to).log().angular;
     Pose {
         rotation: from.rotation * Quat::from_rotation_vector(turn * part).to_matrix(),
         position: from.position + (to.position - from.position) * part,
     }
-}
-
-/// A place that an inextensible thread can be held at: pulled tight, it is a boundary layer at either end and nothing in between, which
-/// no search from one end resolves.
-pub fn within(hand: &Pose, base: Vec3, reach: f64) -> Pose {
-    let arm = hand.position - base;
-    let distance = arm.norm();
-    if distance <= reach { *hand } else { Pose { position: base + arm * (reach / distance), ..*hand } }
 }
 
 fn largest_turn(before: &[Pose], after: &[Pose]) -> f64 {

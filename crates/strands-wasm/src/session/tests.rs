@@ -19,12 +19,12 @@ fn a_dragged_suture_follows_the_hand_and_stays_within_its_reach() {
         assert!((tip(state.solution()).position - state.hand.position).norm() < 1e-9);
     }
     // Beyond its length the hand goes on, and the thread as far as it can.
-    let apart = |state: &State| (tip(state.solution()).position - state.hand.position).norm();
     state.hand.position = Vec3::new(0.3, 0.2, 0.6);
-    let before = apart(&state);
+    let away = |state: &State| (tip(state.solution()).position - state.hand.position).norm();
+    let before = away(&state);
     go(&mut state);
     assert!((state.beyond() - (0.7 - 0.985 * 0.3)).abs() < 1e-12);
-    assert!(apart(&state) < before, "{}", state.report());
+    assert!(away(&state) < before, "{}", state.report());
     assert!(tip(state.solution()).position.norm() < 0.3);
 }
 
@@ -53,12 +53,48 @@ fn a_thread_that_was_let_go_comes_back_to_the_scene() {
     let mut state = suture();
     let opened = state.frames();
     for mode in [HandMode::Free, HandMode::Scene] {
-        state.mode = mode;
+        state.set_mode(mode);
         assert!(state.solve(0.0), "{}", state.report());
         assert_eq!(state.solution().report.morse_index, Some(0), "{mode:?}");
     }
-    let apart = state.frames().iter().zip(&opened).map(|(a, b)| (a - b).abs()).fold(0.0, f64::max);
-    assert!(apart < 1e-6, "{apart}");
+    assert!(apart(&state.frames(), &opened) < 1e-6);
+}
+
+#[test]
+fn a_spring_takes_hold_without_moving_the_thread_and_then_pulls_it_along() {
+    let mut state = suture();
+    let held = state.frames();
+    state.set_mode(HandMode::Coupling);
+    assert!(state.solve(1.0 / 60.0), "{}", state.report());
+    assert!(apart(&state.frames(), &held) < 1e-6);
+    let start = state.hand.position;
+    for i in 1..=30 {
+        state.hand.position = start + Vec3::new(-0.001 * f64::from(i), 0.0, 0.0);
+        assert!(state.solve(1.0 / 60.0), "{i}: {}", state.report());
+    }
+    assert!((tip(state.solution()).position - state.hand.position).norm() < 1e-5);
+    // A thread that is held more softly stays on its branch.
+    let firm = state.frames();
+    state.coupling.linear_stiffness = 0.05;
+    assert_eq!(go(&mut state), 0, "{}", state.report());
+    assert!(apart(&state.frames(), &firm) < 0.05);
+}
+
+/// The largest difference of two shapes.
+fn apart(a: &[f64], b: &[f64]) -> f64 {
+    a.iter().zip(b).map(|(a, b)| (a - b).abs()).fold(0.0, f64::max)
+}
+
+#[test]
+fn a_spring_takes_up_a_thread_that_was_let_go() {
+    let mut state = suture();
+    state.set_mode(HandMode::Free);
+    assert!(state.solve(0.0), "{}", state.report());
+    let hanging = state.frames();
+    state.set_mode(HandMode::Coupling);
+    // The damper must not take the fall for a move of the hand.
+    assert!(state.solve(1.0 / 60.0), "{}", state.report());
+    assert!(apart(&state.frames(), &hanging) < 1e-6);
 }
 
 #[test]
@@ -69,15 +105,14 @@ fn a_snapshot_brings_back_scene_hand_and_shape() {
     state.hand.position.z += 0.02;
     assert!(state.solve(0.0));
     state.restore(&text, HandMode::Pose, &before).unwrap();
-    let apart = state.frames().iter().zip(&shape).map(|(a, b)| (a - b).abs()).fold(0.0, f64::max);
-    assert!(apart < 1e-7, "{apart}");
+    assert!(apart(&state.frames(), &shape) < 1e-7);
     assert!(state.restore(&text, HandMode::Pose, &before[1..]).is_err());
 }
 
 #[test]
 fn the_coupling_saturates_when_the_hand_pulls_past_the_length() {
     let mut state = suture();
-    state.mode = HandMode::Coupling;
+    state.set_mode(HandMode::Coupling);
     let start = state.hand;
     state.coupling.max_force = 2e-5;
     let mut saturated = false;

@@ -1,0 +1,38 @@
+//! Poses and couplings as the plain numbers that cross to the page.
+
+use strands::coupling::VirtualCoupling;
+use strands::math::{Mat3, Pose, Vec3};
+
+pub fn coupling_numbers(c: &VirtualCoupling) -> [f64; 6] {
+    [c.linear_stiffness, c.angular_stiffness, c.linear_damping, c.angular_damping, c.max_force, c.max_torque]
+}
+
+pub fn coupling_from(numbers: [f64; 6]) -> VirtualCoupling {
+    let [linear_stiffness, angular_stiffness, linear_damping, angular_damping, max_force, max_torque] =
+        numbers;
+    VirtualCoupling {
+        linear_stiffness,
+        angular_stiffness,
+        linear_damping,
+        angular_damping,
+        max_force,
+        max_torque,
+    }
+}
+
+pub fn vector(numbers: &[f64]) -> Vec3 {
+    Vec3::new(numbers[0], numbers[1], numbers[2])
+}
+
+pub fn unflat(numbers: &[f64]) -> Pose {
+    let [d1, d2, d3, position] = [0, 3, 6, 9].map(|i| vector(&numbers[i..i + 3]));
+    Pose { rotation: Mat3 { cols: [d1, d2, d3] }, position }
+}
+
+pub fn flat(poses: &[Pose]) -> Vec<f64> {
+    let parts = |pose: &Pose| {
+        let [d1, d2, d3] = pose.rotation.cols;
+        [d1, d2, d3, pose.position].map(|v| v.to_array()).into_iter().flatten().collect::<Vec<f64>>()
+    };
+    poses.iter().flat_map(parts).collect()
+}
