@@ -50,6 +50,18 @@ export async function openPage(context, address, size = { width: 800, height: 50
   return { page, complaints }
 }
 
+/** One page for several tests: opening one in software takes seconds. Each begins with the suture opened anew. */
+export function sharedPage(context, size) {
+  let opened
+  return async () => {
+    if (!opened) return (opened = await openPage(context(), context().address, size))
+    const { page } = opened
+    await page.keyboard.press('Escape')
+    await openScene(page, 'suture')
+    return opened
+  }
+}
+
 export const text = (page, id) => page.locator(`#${id}`).textContent()
 export const value = (page, id) => page.locator(`#${id}`).inputValue()
 export const until = (page, work, argument) => page.waitForFunction(work, argument, { timeout: 20000, polling: 30 })
@@ -81,6 +93,7 @@ export async function done(page) {
 /** Opens a scene of the rail. */
 export async function openScene(page, name) {
   await page.locator(`#rail button[data-name=${name}]`).click()
+  await done(page)
   await until(page, (name) => document.querySelector(`#rail [data-name=${name}]`).getAttribute('aria-current') === 'true', name)
   await badge(page, 'stable', 'converged')
 }

@@ -2,14 +2,15 @@
 
 import assert from 'node:assert/strict'
 import { after, before, test } from 'node:test'
-import { badge, changes, done, hand, needle, openPage, out, start, text, type, until, value } from './browser.mjs'
+import { badge, changes, done, hand, needle, openPage, out, sharedPage, start, text, type, until, value } from './browser.mjs'
 
 let context
+const fresh = sharedPage(() => context)
 before(async () => (context = await start()))
 after(async () => context.stop())
 
 test('the suture opens ready to drag, follows the pointer, and undo and redo bring the hand back', async () => {
-  const { page, complaints } = await openPage(context, context.address)
+  const { page, complaints } = await fresh()
   await badge(page, 'stable')
   assert.match(await text(page, 'method'), /shooting, 200 el\./)
   const first = await hand(page)
@@ -46,11 +47,10 @@ test('the suture opens ready to drag, follows the pointer, and undo and redo bri
   await page.locator('#undo').click()
   await until(page, (x) => document.getElementById('hand-x').value === x, dragged[0])
   assert.deepEqual(complaints, [])
-  await page.close()
 })
 
 test('300 poses on a closed path are solved; how long that takes is printed', async () => {
-  const { page } = await openPage(context, context.address)
+  const { page } = await fresh()
   const times = await page.evaluate(async () => {
     const { stage, readout, solver } = window.strands
     readout.times.length = 0
@@ -69,16 +69,16 @@ test('300 poses on a closed path are solved; how long that takes is printed', as
   const at = (part) => times[Math.floor(part * (times.length - 1))].toFixed(2)
   console.log(`${times.length} solves of 200 elements: median ${at(0.5)} ms, p99 ${at(0.99)} ms`)
   await badge(page, 'stable')
-  await page.close()
 })
 
 test('a hand that cannot be followed does not hold up a newer one; how long that waits is printed', async () => {
-  const { page, complaints } = await openPage(context, context.address)
+  const { page, complaints } = await fresh()
   const waits = await page.evaluate(async () => {
     const { stage, solver } = window.strands
     const start = stage.hand.pose()
     const waits = []
     // Drawing in software would take longer than what is measured.
+    const { draw } = stage
     stage.draw = () => undefined
     for (let i = 1; i <= 40; i++) {
       const far = [...start]
@@ -91,17 +91,17 @@ test('a hand that cannot be followed does not hold up a newer one; how long that
       await solver.move(start)
       waits.push(performance.now() - asked)
     }
+    stage.draw = draw
     return waits.sort((a, b) => a - b)
   })
   console.log(`a newer hand waited ${waits[waits.length >> 1].toFixed(1)} ms (median), ${waits[waits.length - 1].toFixed(1)} ms (most)`)
   await done(page)
   assert.equal(await value(page, 'hand-z'), '60.00')
   assert.deepEqual(complaints, [])
-  await page.close()
 })
 
 test('of many moves at once the newest wins, also after one that cannot be reached', async () => {
-  const { page, complaints } = await openPage(context, context.address)
+  const { page, complaints } = await fresh()
   const solved = await page.evaluate(async () => {
     const { stage, solver, readout, moveHand } = window.strands
     const start = stage.hand.pose()
@@ -125,11 +125,10 @@ test('of many moves at once the newest wins, also after one that cannot be reach
   assert.equal(await value(page, 'hand-z'), '70.00')
   assert.equal(await page.evaluate(() => window.strands.stage.gapIsShown), false)
   assert.deepEqual(complaints, [])
-  await page.close()
 })
 
 test('out of reach the hand goes on, a line shows the gap, and the badge says how far', async () => {
-  const { page, complaints } = await openPage(context, context.address)
+  const { page, complaints } = await fresh()
   await type(page, 'hand-x', 900)
   await until(page, () => /out of reach by \d+\.\d mm/.test(document.getElementById('badge').textContent))
   assert.ok(await page.evaluate(() => window.strands.stage.gapIsShown))
@@ -139,11 +138,10 @@ test('out of reach the hand goes on, a line shows the gap, and the badge says ho
   await badge(page, 'stable')
   assert.equal(await page.evaluate(() => window.strands.stage.gapIsShown), false)
   assert.deepEqual(complaints, [])
-  await page.close()
 })
 
 test('keys twist, move and turn the hand, show the gizmo, pause and frame', async () => {
-  const { page, complaints } = await openPage(context, context.address)
+  const { page, complaints } = await fresh()
   await page.locator('#stage').focus()
   await changes(page, 'torque', () => page.keyboard.press('e'))
   await changes(page, 'turn-z', () => page.keyboard.press('q'))
@@ -177,11 +175,10 @@ test('keys twist, move and turn the hand, show the gizmo, pause and frame', asyn
   await page.keyboard.press('f')
   assert.ok((await page.evaluate(() => window.strands.stage.camera.position.length())) < far)
   assert.deepEqual(complaints, [])
-  await page.close()
 })
 
 test('the gizmo moves the hand, a drag elsewhere looks around, a double-click frames', async () => {
-  const { page, complaints } = await openPage(context, context.address)
+  const { page, complaints } = await fresh()
   await page.locator('#stage').focus()
   await page.keyboard.press('t')
   // The gizmo's vertical arrow stands above the thread's end.
@@ -212,7 +209,6 @@ test('the gizmo moves the hand, a drag elsewhere looks around, a double-click fr
   await until(page, (away) => window.strands.stage.camera.position.length() < Math.hypot(...away), away)
   assert.deepEqual(await hand(page), moved)
   assert.deepEqual(complaints, [])
-  await page.close()
 })
 
 test('one finger drags the hand or looks around, two fingers on the hand twist and bring nearer', async () => {

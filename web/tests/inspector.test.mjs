@@ -2,16 +2,20 @@
 
 import assert from 'node:assert/strict'
 import { after, before, test } from 'node:test'
-import { badge, changes, done, openPage, openScene, start, text, type, until, value } from './browser.mjs'
+import { badge, changes, done, openScene, sharedPage, start, text, type, until, value } from './browser.mjs'
 
 let context
+const fresh = sharedPage(() => context)
 before(async () => (context = await start()))
 after(async () => context.stop())
 
-const unfold = (page, group) => page.locator('summary', { hasText: group }).click()
+const unfold = async (page, group) => {
+  const folded = page.locator('details:not([open]) > summary', { hasText: group })
+  if (await folded.count()) await folded.click()
+}
 
 test('every number of the strand changes the solution, and undo takes it back', async () => {
-  const { page, complaints } = await openPage(context, context.address)
+  const { page, complaints } = await fresh()
   const numbers = { radius: 0.09, youngs: 2, poisson: 0.3, density: 1000, kappa1: 3, kappa2: 2, tau: 5, gravity: 5, length: 310 }
   for (const [id, number] of Object.entries(numbers)) await changes(page, 'energy', () => type(page, id, number))
   await changes(page, 'energy', () => page.locator('#undo').click())
@@ -22,11 +26,10 @@ test('every number of the strand changes the solution, and undo takes it back', 
   await until(page, () => document.getElementById('undo').disabled === false)
   await badge(page, 'stable')
   assert.deepEqual(complaints, [])
-  await page.close()
 })
 
 test('a scene shows the numbers that it has: of its section, of its coil', async () => {
-  const { page, complaints } = await openPage(context, context.address)
+  const { page, complaints } = await fresh()
   const shown = async () => page.locator('#strand label:visible input').evaluateAll((all) => all.map((one) => one.id))
   await openScene(page, 'telephone_cord')
   assert.ok((await shown()).includes('helix-radius'))
@@ -40,11 +43,10 @@ test('a scene shows the numbers that it has: of its section, of its coil', async
   await changes(page, 'energy', () => type(page, 'width', 0.6))
   await changes(page, 'energy', () => type(page, 'height', 20))
   assert.deepEqual(complaints, [])
-  await page.close()
 })
 
 test('the hand is put by numbers, and its modes and its spring work', async () => {
-  const { page, complaints } = await openPage(context, context.address)
+  const { page, complaints } = await fresh()
   for (const [id, number] of [['hand-x', 160], ['hand-y', 20], ['hand-z', 70], ['turn-x', -170], ['turn-y', 50], ['turn-z', -175]]) {
     await type(page, id, number)
     await done(page)
@@ -73,11 +75,10 @@ test('the hand is put by numbers, and its modes and its spring work', async () =
   await changes(page, 'mode', () => page.locator('#undo').click())
   assert.equal(await value(page, 'mode'), 'scene')
   assert.deepEqual(complaints, [])
-  await page.close()
 })
 
 test('a spring pulls up to the device’s limit and no further', async () => {
-  const { page, complaints } = await openPage(context, context.address)
+  const { page, complaints } = await fresh()
   await openScene(page, 'cantilever')
   await page.locator('#mode').selectOption('coupling')
   await type(page, 'hand-z', -120)
@@ -87,11 +88,10 @@ test('a spring pulls up to the device’s limit and no further', async () => {
   await type(page, 'hand-z', -100)
   await until(page, () => document.getElementById('force').textContent === '50.0 mN (limit)')
   assert.deepEqual(complaints, [])
-  await page.close()
 })
 
 test('the solver’s controls hold, and a number that is refused is explained and goes back', async () => {
-  const { page, complaints } = await openPage(context, context.address)
+  const { page, complaints } = await fresh()
   await unfold(page, 'Solver')
   await type(page, 'elements', 80)
   await until(page, () => document.getElementById('method').textContent.includes('80 el.'))
@@ -114,11 +114,10 @@ test('the solver’s controls hold, and a number that is refused is explained an
   assert.equal(await page.locator('#radius').getAttribute('aria-invalid'), null)
   assert.equal(await value(page, 'radius'), '0.085')
   assert.deepEqual(complaints, [])
-  await page.close()
 })
 
 test('where no equilibrium is found the last good shape stays, and the page says what to do', async () => {
-  const { page, complaints } = await openPage(context, context.address)
+  const { page, complaints } = await fresh()
   const shape = () => page.evaluate(() => window.strands.solver.ask({ kind: 'csv' }).then((reply) => reply.data))
   const before = await shape()
   // No number is a place that cannot be held.
@@ -135,17 +134,16 @@ test('where no equilibrium is found the last good shape stays, and the page says
   await badge(page, 'stable')
   assert.ok(await page.locator('#message').isHidden())
   // And one that is refused.
-  await page.locator('summary', { hasText: 'Solver' }).click()
+  await unfold(page, 'Solver')
   await type(page, 'tolerance', '1e-300')
   await until(page, () => document.getElementById('message').textContent.includes('tolerance'))
   await page.keyboard.press('Escape')
   assert.ok(await page.locator('#message').isHidden())
   assert.deepEqual(complaints, [])
-  await page.close()
 })
 
 test('the view: colours, their map, range and legend, thickness, arrows and glyphs', async () => {
-  const { page, complaints } = await openPage(context, context.address)
+  const { page, complaints } = await fresh()
   await unfold(page, 'View')
   const legends = { twist: /Twist.*1\/m/, tension: /Tension.*[µn]N/, moment: /Bending moment.*N·m/, energy: /Elastic energy.*J\/m/, curvature: /Curvature.*1\/m/ }
   for (const [by, pattern] of Object.entries(legends)) {
@@ -178,5 +176,4 @@ test('the view: colours, their map, range and legend, thickness, arrows and glyp
   await page.locator('#colour').selectOption('nothing')
   assert.doesNotMatch(await text(page, 'legend'), /Curvature/)
   assert.deepEqual(complaints, [])
-  await page.close()
 })
