@@ -174,6 +174,8 @@ async function setMode(mode: HandMode): Promise<void> {
   remember()
   solver.forget()
   receive(await solver.ask({ kind: 'mode', mode }))
+  // What is let go may fall out of sight.
+  if (mode === 'free' || mode === 'scene') stage.frameAll()
 }
 
 async function setCoupling(values: number[]): Promise<void> {

@@ -171,29 +171,25 @@ impl State {
     }
 
     /// Solves the held rod for where the hand is, with one search from the last shape. Where that is not enough, [`settle`](State::settle)
-    /// goes on. Without a hand that leads, nobody waits for the next frame: then the search may start again from rest.
+    /// goes on. Without a hand that leads nobody waits for the next frame, and the thread comes to rest as one that starts from rest.
     pub fn solve(&mut self, time_step: f64) -> bool {
         let mut problem = self.rod().problem.clone();
         problem.end = self.end(self.rod(), time_step);
-        let leads = self.mode.leads();
         let whole = self.scene.model.settings;
-        let settings =
-            if leads { Settings { max_halvings: 0, restart_from_rest: false, ..whole } } else { whole };
-        let last = self.solution();
-        let guess = self.last_start().guess_at(&problem.end);
+        let found = if self.mode.leads() {
+            let once = Settings { max_halvings: 0, restart_from_rest: false, ..whole };
+            let guess = self.last_start().guess_at(&problem.end);
+            solve(&problem, &once, Some(&guess), &mut self.workspace)
+        } else {
+            let guess = self.solution().guess;
+            solve(&problem, &whole, None, &mut self.workspace)
+                .or_else(|_| solve(&problem, &whole, Some(&guess), &mut self.workspace))
+        };
         // The stability of a thread on a spring says nothing of the branch that it is on.
-        let may_be_unstable = self.mode != HandMode::Pose || last.report.morse_index != Some(0);
-        let mut found = solve(&problem, &settings, Some(&guess), &mut self.workspace);
-        let is_stable = |solution: &Solution| solution.report.morse_index == Some(0);
-        if !leads
-            && !found.as_ref().is_ok_and(is_stable)
-            && let Ok(other) = solve(&problem, &whole, None, &mut self.workspace)
-        {
-            found = Ok(other);
-        }
+        let may_be_unstable = self.mode != HandMode::Pose || self.solution().report.morse_index != Some(0);
         match found {
             // A search that lost stability has landed on another branch: small steps may stay on this one.
-            Ok(solution) if may_be_unstable || is_stable(&solution) => {
+            Ok(solution) if may_be_unstable || solution.report.morse_index == Some(0) => {
                 self.take(solution, self.aim());
                 true
             }

@@ -91,6 +91,7 @@ fn a_spring_takes_up_a_thread_that_was_let_go() {
     state.set_mode(HandMode::Free);
     assert!(state.solve(0.0), "{}", state.report());
     let hanging = state.frames();
+    assert!(tip(state.solution()).position.z < -0.2, "it does not hang: {}", state.report());
     state.set_mode(HandMode::Coupling);
     // The damper must not take the fall for a move of the hand.
     assert!(state.solve(1.0 / 60.0), "{}", state.report());
