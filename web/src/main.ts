@@ -25,7 +25,7 @@ interface Moment {
 }
 
 const element = <T extends HTMLElement>(id: string) => document.getElementById(id) as T
-const stage = new Stage(element<HTMLCanvasElement>('stage'), element('labels'), moveHand)
+const stage = makeStage()
 const gestures = new Gestures(stage, { grabbed: remember, moved: moveHand })
 const solver = new Solver(receive)
 const readout = new Readout(new Plot(element<HTMLCanvasElement>('plot')))
@@ -39,6 +39,15 @@ let shape: Shape | null = null
 let opened = { text: '', name: '' }
 let paused = false
 let frames = 0
+
+function makeStage(): Stage {
+  try {
+    return new Stage(element<HTMLCanvasElement>('stage'), element('labels'), moveHand)
+  } catch (error) {
+    say('This browser draws no 3-D pictures (WebGL 2). Allow hardware acceleration in its settings, or open the page in another one.')
+    throw error
+  }
+}
 
 function moveHand(): void {
   if (!shape) return
@@ -59,6 +68,7 @@ function placeHand(change: () => void): void {
 function receive(reply: Reply): void {
   switch (reply.kind) {
     case 'error':
+    case 'stopped':
       return say(reply.message)
     case 'opened':
       scene = JSON.parse(reply.scene)
@@ -173,7 +183,10 @@ const redo = () => shape && void goBack(history.redo(now()))
 async function setMode(mode: HandMode): Promise<void> {
   remember()
   solver.forget()
-  receive(await solver.ask({ kind: 'mode', mode }))
+  const reply = await solver.ask({ kind: 'mode', mode })
+  // A spring takes hold a little beside the thread's end.
+  if (reply.kind === 'shape') stage.hand.set(reply.shape.hand)
+  receive(reply)
   // What is let go may fall out of sight.
   if (mode === 'free' || mode === 'scene') stage.frameAll()
 }
@@ -266,7 +279,10 @@ async function start(): Promise<void> {
   listen()
   setTheme(matchMedia('(prefers-color-scheme: dark)').matches)
   const reply = await solver.ask({ kind: 'bundled' })
-  if (reply.kind !== 'bundled') return receive(reply)
+  if (reply.kind !== 'bundled') {
+    readout.say({ kind: 'failed', badge: 'failed' })
+    return receive(reply)
+  }
   buildRail(element('rail'), reply.scenes, ({ text, name }) => {
     forgetShared()
     showSheet(null)

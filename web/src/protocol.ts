@@ -69,3 +69,5 @@ export type Reply =
   | { kind: 'file'; name: string; data: string | Uint8Array }
   /** Nobody asked: the worker has come nearer to a hand that it did not reach at once. */
   | { kind: 'settled'; shape: Shape }
+  /** Nobody asked: the solver has stopped on the way there. */
+  | { kind: 'stopped'; message: string }

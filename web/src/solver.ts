@@ -13,7 +13,7 @@ export class Solver {
 
   constructor(private onFrame: (reply: Reply) => void) {
     this.#worker.onmessage = (event: MessageEvent<Reply>) => {
-      if (event.data.kind === 'settled') this.onFrame(event.data)
+      if (event.data.kind === 'settled' || event.data.kind === 'stopped') this.onFrame(event.data)
       else this.#waiting.shift()?.(event.data)
     }
   }

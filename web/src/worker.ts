@@ -115,13 +115,24 @@ async function settle(turn: number): Promise<void> {
   }
 }
 
+/** What to tell a person of an error. */
+function explained(error: unknown): string {
+  if (!(error instanceof WebAssembly.RuntimeError)) return String(error)
+  // A session that has stopped in the middle of its work cannot be used again.
+  session = null
+  settling = false
+  return `The solver stopped unexpectedly (${error.message}). Reset opens the scene anew.`
+}
+
 self.onmessage = async (event: MessageEvent<Request>) => {
   const turn = ++requests
-  await ready
   try {
+    await ready.catch((error) => {
+      throw `The solver could not be loaded (${error}). Reload the page; an up-to-date browser is needed.`
+    })
     say(answer(event.data))
   } catch (error) {
-    say({ kind: 'error', message: String(error) })
+    say({ kind: 'error', message: explained(error) })
   }
-  if (settling) void settle(turn)
+  if (settling) void settle(turn).catch((error) => say({ kind: 'stopped', message: explained(error) }))
 }

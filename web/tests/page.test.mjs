@@ -71,6 +71,20 @@ test('scene, shape and picture are saved, a scene file is opened, a broken one e
   await page.close()
 })
 
+test('a solver that cannot be loaded, and a browser without WebGL, are explained', async () => {
+  const page = await context.browser.newPage()
+  await page.route('**/*.wasm', (route) => route.abort())
+  await page.goto(context.address)
+  await badge(page, 'failed')
+  assert.match(await text(page, 'message'), /could not be loaded.*Reload/s)
+  await page.close()
+  const flat = await context.browser.newPage()
+  await flat.addInitScript(() => (HTMLCanvasElement.prototype.getContext = () => null))
+  await flat.goto(context.address)
+  await until(flat, () => document.getElementById('message').textContent.includes('WebGL'))
+  await flat.close()
+})
+
 test('hints come once, the list of gestures keeps the focus and closes by Escape, and the theme changes', async () => {
   const { page, complaints } = await openPage(context, context.address, undefined, 'light', { hints: true })
   await until(page, () => !document.getElementById('hints').hidden)
