@@ -50,7 +50,9 @@ impl Start {
         }
         let turn = Quat::from_rotation_vector(self.reaction.moment * (-1.0 / angular_stiffness)).to_matrix();
         let pose = Pose { rotation: turn * grip.hand.rotation, position: pull * (1.0 / linear_stiffness) };
-        Guess { pose, ..self.guess }
+        let mut guess = self.guess;
+        guess.pose = pose;
+        guess
     }
 }
 
