@@ -8,7 +8,7 @@ import type { Report, Shape } from './protocol'
 const SOLVES = 300
 
 export interface Verdict {
-  kind: 'stable' | 'converged' | 'unstable' | 'failed' | 'away'
+  kind: 'stable' | 'converged' | 'unstable' | 'failed' | 'away' | 'following'
   badge: string
   /** What to do where something went wrong. */
   advice: string | null
@@ -59,14 +59,15 @@ export class Readout {
     }
     for (const [id, text] of Object.entries(texts)) document.getElementById(id)!.textContent = text
     this.plot.add(force, torque)
-    // While the worker is on its way, the verdict waits.
+    // While the worker is on its way the verdict waits; where that is seen, it is said.
     if (!report.settling) this.say(judge(report))
+    else if (!solved) this.say({ kind: 'following', badge: 'following …' })
   }
 
   say(verdict: Pick<Verdict, 'kind' | 'badge'>): void {
     this.#badge.textContent = verdict.badge
     this.#badge.className = verdict.kind
-    if (this.#said === verdict.kind) return
+    if (this.#said === verdict.kind || verdict.kind === 'following') return
     // Only a change is read out, and not every millimetre.
     this.#said = verdict.kind
     this.#live.textContent = verdict.badge

@@ -13,4 +13,6 @@ export function listenToTabs(): void {
     tab.addEventListener('click', () => showSheet(document.body.dataset.sheet === tab.dataset.sheet ? null : tab.dataset.sheet!))
   }
   showSheet(null)
+  // A sheet is low: there the groups begin folded.
+  if (innerWidth <= 720) for (const group of document.querySelectorAll('details')) group.open = false
 }

@@ -120,7 +120,7 @@ test('on a phone every panel is a sheet, nothing covers another, and nothing is 
   const boxes = await Promise.all(['top', 'legend', 'strip', 'tabs'].map((id) => page.locator(`#${id}`).boundingBox()))
   boxes.forEach((a, i) => boxes.slice(i + 1).forEach((b) => assert.ok(a.y + a.height <= b.y || b.y + b.height <= a.y, `${JSON.stringify(a)} ${JSON.stringify(b)}`)))
   for (const box of boxes) assert.ok(box.x >= 0 && box.x + box.width <= 390)
-  const sheets = { rail: '#rail button', inspector: '#length', numbers: '#newton', more: '#save-scene' }
+  const sheets = { rail: '#rail button', inspector: '#inspector summary', numbers: '#newton', more: '#save-scene' }
   for (const [name, inside] of Object.entries(sheets)) {
     assert.ok(await page.locator(inside).first().isHidden(), name)
     await page.locator(`[data-sheet=${name}]`).last().tap()

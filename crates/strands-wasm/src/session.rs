@@ -2,12 +2,12 @@
 
 use strands::coupling::{Grip, LastFrame, VirtualCoupling};
 use strands::math::{Pose, Quat, Strain, Wrench};
-use strands::statics::{End, Guess, Settings, Solution, SolveReport, Workspace, solve};
+use strands::statics::{End, Guess, Solution, SolveReport, Workspace, solve};
 use strands_scene::{FixName, Model, ModelRod, Place, Scene, SceneFile, SupportFile};
 
 use crate::hand::{HandMode, coupling_for, reachable};
 use crate::numbers::{coupling_from, coupling_numbers, flat, unflat, vector};
-use crate::settle::{Bit, Start, Way};
+use crate::settle::{Bit, Start, Way, search};
 
 pub struct State {
     scene: Scene,
@@ -177,13 +177,13 @@ impl State {
         problem.end = self.end(self.rod(), time_step);
         let whole = self.scene.model.settings;
         let found = if self.mode.leads() {
-            let once = Settings { max_halvings: 0, restart_from_rest: false, ..whole };
             let guess = self.last_start().guess_at(&problem.end);
-            solve(&problem, &once, Some(&guess), &mut self.workspace)
+            search(&problem, &whole, guess, &mut self.workspace)
         } else {
             let guess = self.solution().guess;
             solve(&problem, &whole, None, &mut self.workspace)
                 .or_else(|_| solve(&problem, &whole, Some(&guess), &mut self.workspace))
+                .map_err(|failure| Box::new((failure.reason, failure.nearest.report)))
         };
         // The stability of a thread on a spring says nothing of the branch that it is on.
         let may_be_unstable = self.mode != HandMode::Pose || self.solution().report.morse_index != Some(0);
@@ -198,8 +198,9 @@ impl State {
                 self.set_out("the shape that was found is not stable".to_owned(), report, Some(unstable));
                 false
             }
-            Err(failure) => {
-                self.set_out(failure.reason.to_string(), failure.nearest.report, None);
+            Err(miss) => {
+                let (reason, report) = *miss;
+                self.set_out(reason.to_string(), report, None);
                 false
             }
         }

@@ -7,10 +7,12 @@
 
 use strands::coupling::VirtualCoupling;
 use strands::math::{Mat3, Pose, Quat};
-use strands::statics::{End, Guess, Problem, Reaction, Settings, Solution, Workspace, solve};
+use strands::statics::{
+    End, FailureReason, Guess, Problem, Reaction, Settings, Solution, SolveReport, Workspace, follow, solve,
+};
 
-/// Iterations of one step.
-const ITERATIONS: usize = 12;
+/// Iterations of one step: a coil may need thirty, and a step that fails mostly stalls long before.
+const ITERATIONS: usize = 40;
 /// The first step, a part of the way.
 const FIRST_STEP: f64 = 0.25;
 /// The step at which a way counts as blocked.
@@ -104,9 +106,8 @@ impl Way {
         let next = if whole { *hand } else { between(&self.at.hand, hand, self.step) };
         let mut problem = goal.clone();
         hold(&mut problem.end, next);
-        let short =
-            Settings { max_iterations: ITERATIONS, max_halvings: 0, restart_from_rest: false, ..*settings };
-        let found = solve(&problem, &short, Some(&self.at.guess_at(&problem.end)), workspace).ok();
+        let short = Settings { max_iterations: ITERATIONS, ..*settings };
+        let found = search(&problem, &short, self.at.guess_at(&problem.end), workspace).ok();
         let Some(found) = found.filter(|found| self.follows(found)) else {
             self.step *= 0.5;
             return Bit::Trying;
@@ -136,6 +137,35 @@ impl Way {
         (self.at, self.step, self.shape, self.continuous) = (start, FIRST_STEP, None, false);
         Bit::Trying
     }
+}
+
+/// One search and nothing more, where `solve` would go on to a way of its own, which could not be interrupted.
+///
+/// # Errors
+/// Why nothing was found, and how the search went.
+pub fn search(
+    problem: &Problem,
+    settings: &Settings,
+    mut guess: Guess,
+    workspace: &mut Workspace,
+) -> Result<Solution, Box<(FailureReason, SolveReport)>> {
+    let mut report = SolveReport::default();
+    if follow(problem, settings, &mut guess, workspace, &mut report) {
+        return match solve(problem, settings, Some(&guess), workspace) {
+            Ok(mut solution) => {
+                solution.report.iterations += report.iterations;
+                Ok(solution)
+            }
+            Err(failure) => Err(Box::new((failure.reason, failure.nearest.report))),
+        };
+    }
+    let reason = if report.residual.is_finite() {
+        let (residual, iterations) = (report.residual, report.iterations);
+        FailureReason::NotConverged { residual, tolerance: settings.tolerance, iterations }
+    } else {
+        FailureReason::NotFinite { node: problem.rod.elements() }
+    };
+    Err(Box::new((reason, report)))
 }
 
 /// Puts the end that a hand holds somewhere else.
