@@ -330,7 +330,7 @@ fn coadjoint_matrix(strain: Strain) -> Mat6 {
 }
 
 /// The matrix of `ε ↦ ad*(ε) σ`.
-fn coadjoint_by_strain(stress: Stress) -> Mat6 {
+pub(crate) fn coadjoint_by_strain(stress: Stress) -> Mat6 {
     let (m, n) = (Mat3::hat(stress.angular).scaled(-1.0), Mat3::hat(stress.linear).scaled(-1.0));
     Mat6 { blocks: [[m, n], [n, Mat3::ZERO]] }
 }

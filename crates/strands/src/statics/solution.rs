@@ -144,7 +144,7 @@ pub struct SolveReport {
     pub jacobians: usize,
     /// Steps on the way from the last solution or from rest; 1 where the search converged at once.
     pub path_steps: usize,
-    /// How many ways there are to lower the energy: conjugate points along the rod. `None` where the loads have no potential (follower
+    /// How many ways there are to lower the energy. `None` where the loads have no potential (follower
     /// loads) or the count does not apply.
     pub morse_index: Option<usize>,
 }

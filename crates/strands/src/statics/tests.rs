@@ -414,6 +414,59 @@ fn a_straight_rod_pushed_along_its_axis_buckles_to_a_stable_shape() {
 }
 
 #[test]
+fn a_straight_column_has_one_unstable_way_for_each_buckling_load_below_its_own() {
+    let straight = |end: End, force: f64, order: Order| {
+        let rod = rod(Kinematics::Kirchhoff, RestShape::default(), 60, order);
+        let base = rod.description().base;
+        let tip = base.compose(&Pose { position: Vec3::Z * 0.8, ..Pose::IDENTITY });
+        let push = Wrench::new(Vec3::ZERO, base.rotation * Vec3::Z * -force);
+        let load = PointLoad { at: 0.8, wrench: push, frame: Frame::World };
+        let loads = NodalLoads::none(&rod).with_point(&rod, &load).unwrap();
+        let problem = Problem { loads, end, ..Problem::cantilever(rod) };
+        let guess = Guess::new(tip, Wrench::new(Vec3::ZERO, Vec3::Z * -force));
+        let solution = solve(&problem, &Settings::default(), Some(&guess), &mut Workspace::default());
+        solution.unwrap_or_else(|failure| panic!("{failure}")).report.morse_index.unwrap()
+    };
+    let tip = description(Kinematics::Kirchhoff, RestShape::default()).base;
+    let tip = tip.compose(&Pose { position: Vec3::Z * 0.8, ..Pose::IDENTITY });
+    let sprung = |stiffness: f64| {
+        let coupling = VirtualCoupling {
+            linear_stiffness: stiffness,
+            angular_stiffness: 0.01 * stiffness,
+            linear_damping: 0.0,
+            angular_damping: 0.0,
+            max_force: 100.0,
+            max_torque: 100.0,
+        };
+        End::gripped(Grip { coupling, hand: tip, last: None })
+    };
+    for force in [0.1, 0.25, 1.0, 2.0, 5.0, 9.0, 20.0] {
+        // Euler: a free end buckles at ((k − ½) π)² EI/L², about either axis; a guided one, clamped at its place, at the roots of
+        // 2 (1 − cos x) = x sin x: 2 π k, and between them.
+        let passed = |roots: &[f64]| {
+            let below =
+                |stiffness: f64| roots.iter().filter(|x| **x * **x * stiffness / 0.64 < force).count();
+            below(0.05) + below(0.08)
+        };
+        let half = std::f64::consts::FRAC_PI_2;
+        let free: Vec<f64> = (0..12).map(|k| f64::from(2 * k + 1) * half).collect();
+        let clamped = [4.0 * half, 8.986_818_916, 8.0 * half, 15.450_503_674, 12.0 * half];
+        for order in [Order::Second, Order::Fourth] {
+            let loose = straight(End::free(tip), force, order);
+            assert_eq!(loose, passed(&free), "free, {force} N, {order:?}");
+            let held = straight(End::clamped(tip), force, order);
+            assert_eq!(held, passed(&clamped), "clamped, {force} N, {order:?}");
+            let mut last = loose;
+            for stiffness in [1e-6, 0.01, 0.3, 1.0, 10.0, 1e3, 1e6] {
+                let sprung = straight(sprung(stiffness), force, order);
+                assert!((held..=last).contains(&sprung), "a spring of {stiffness} N/m, {force} N: {sprung}");
+                last = sprung;
+            }
+        }
+    }
+}
+
+#[test]
 fn a_hand_on_a_stiff_coupling_pulls_the_tip_to_itself_and_its_wrench_balances() {
     let rod = rod(Kinematics::Kirchhoff, curved(), 80, Order::Second);
     let loads = NodalLoads::none(&rod).with_gravity(&rod, Vec3::new(0.0, 1.0, -9.81));

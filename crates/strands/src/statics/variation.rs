@@ -10,7 +10,7 @@
 //! and a dead load `l` at a node adds `l × δθ`. The flexibilities of several elements do not depend on one another, and are formed side by
 //! side in lanes; then the columns go past these elements, side by side in lanes too, or one after the other. The numbers are the same.
 
-use super::march::{Record, turned};
+use super::march::Record;
 use crate::element::{self, DiagonalPoint, diagonal_flexibility};
 use crate::load::NodalLoads;
 use crate::math::{Kernel, Lanes, Mat3, Pose, SimdLevel, Vec3, Vec6, Vector, Wrench, dispatch};
@@ -230,24 +230,6 @@ impl<V: Vector, const N: usize> Kernel for Sweep<'_, V, N> {
         }
         Some(columns)
     }
-}
-
-/// Takes a variation, in body axes, from the far to the near node of an element that yields by `xi`, and past the near node's loads.
-pub(crate) fn carry(
-    record: &Record,
-    loads: &NodalLoads,
-    e: usize,
-    wrench: Wrench,
-    at: Variation,
-    xi: Vec6,
-) -> Variation {
-    let relative = record.poses[e].between(&record.poses[e + 1]);
-    let frame = relative.adjoint(at.frame - xi);
-    let mut out = Variation { frame, wrench: relative.carry_wrench(at.wrench + xi.coadjoint(wrench)) };
-    if e > 0 {
-        out.wrench += turned_by(turned(&record.poses[e], loads.world[e]), frame.angular);
-    }
-    out
 }
 
 /// How a dead wrench, in the axes of a frame, changes there when the frame turns by `turn`.
