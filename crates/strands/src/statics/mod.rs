@@ -243,16 +243,17 @@ fn solution(problem: &Problem, search: &Search, workspace: &Workspace, report: S
 
 impl Solution {
     /// How far force and moment are from balance, over the largest force and moment that act: the supports' reactions and every load,
-    /// moments about the world's origin. Round-off, whatever the number of elements.
+    /// moments about the world's origin, those of the forces' levers too. Round-off, whatever the number of elements.
     pub fn imbalance(&self, problem: &Problem) -> f64 {
         let (mut force, mut moment) = (Vec3::ZERO, Vec3::ZERO);
         let (mut force_size, mut moment_size) = (f64::MIN_POSITIVE, f64::MIN_POSITIVE);
         let mut add = |f: Vec3, m: Vec3, at: Vec3| {
-            let m = m + at.cross(f);
+            let lever = at.cross(f);
             force += f;
-            moment += m;
+            moment += m + lever;
             force_size = force_size.max(f.norm());
-            moment_size = moment_size.max(m.norm());
+            // The two apart: together they vanish where the line of the force passes through the origin.
+            moment_size = moment_size.max(m.norm()).max(lever.norm());
         };
         for (i, pose) in self.poses.iter().enumerate() {
             let (world, body) = (problem.loads.world[i], problem.loads.body[i]);
