@@ -65,10 +65,17 @@ pub enum Tip {
 }
 
 /// Where a solver starts.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Start {
     /// From rest.
     Cold,
+    /// From the end of an equilibrium under less load, known in closed form: where a search from rest may find another one.
+    Near {
+        /// The frame there.
+        pose: Pose,
+        /// The internal wrench in it.
+        wrench: Wrench,
+    },
     /// From the solution of the row before, which lies on the same path of loads.
     PreviousRow,
 }
@@ -120,9 +127,10 @@ impl Case {
         for row in &self.rows {
             let guess = match row.start {
                 Start::Cold => None,
-                Start::PreviousRow => previous.as_ref(),
+                Start::Near { pose, wrench } => Some(Guess::new(pose, wrench)),
+                Start::PreviousRow => previous,
             };
-            let outcome = row.solve(elements, order, settings, guess, &mut workspace);
+            let outcome = row.solve(elements, order, settings, guess.as_ref(), &mut workspace);
             previous = outcome.as_ref().ok().map(|outcome| outcome.solution.guess);
             outcomes.push(outcome);
         }
