@@ -12,6 +12,13 @@ pub enum Quantity {
         /// Where along the rod, m.
         s: f64,
     },
+    /// How far a straight rod has moved aside at `s`, m: the position's part along a direction across it.
+    Deflection {
+        /// Where along the rod, m.
+        s: f64,
+        /// The direction, of length one, world axes.
+        along: Vec3,
+    },
     /// How the frame at `s` is turned, body to world.
     Orientation {
         /// Where along the rod, m.
@@ -76,12 +83,17 @@ impl Expected {
         Self { quantity: Quantity::Orientation { s }, value: Value::Orientation(orientation), scale: 1.0 }
     }
 
+    /// A deflection, its error measured by itself.
+    pub fn deflection(s: f64, along: Vec3, value: f64) -> Self {
+        Self::scalar(Quantity::Deflection { s, along }, value)
+    }
+
     /// A force, a moment.
     pub fn vector(quantity: Quantity, value: Vec3) -> Self {
         Self { quantity, value: Value::Vector(value), scale: value.norm() }
     }
 
-    /// An energy.
+    /// An energy, a deflection.
     pub fn scalar(quantity: Quantity, value: f64) -> Self {
         Self { quantity, value: Value::Scalar(value), scale: value.abs() }
     }
@@ -95,7 +107,9 @@ impl Expected {
     /// Where along the rod it is taken, for quantities that need a node there.
     pub fn place(&self) -> Option<f64> {
         match self.quantity {
-            Quantity::Position { s } | Quantity::Orientation { s } => Some(s),
+            Quantity::Position { s } | Quantity::Deflection { s, .. } | Quantity::Orientation { s } => {
+                Some(s)
+            }
             _ => None,
         }
     }
@@ -123,6 +137,7 @@ impl Quantity {
         let [start, end] = &solution.reactions;
         match self {
             Self::Position { s } => Value::Vector(pose(s).position),
+            Self::Deflection { s, along } => Value::Scalar(pose(s).position.dot(along)),
             Self::Orientation { s } => Value::Orientation(pose(s).orientation()),
             Self::BaseForce => Value::Vector(-start.force),
             Self::BaseMoment => Value::Vector(-start.moment),
@@ -138,6 +153,7 @@ impl fmt::Display for Quantity {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         match self {
             Self::Position { s } => write!(f, "position at s = {s:.6}"),
+            Self::Deflection { s, .. } => write!(f, "deflection at s = {s:.6}"),
             Self::Orientation { s } => write!(f, "orientation at s = {s:.6}"),
             Self::BaseForce => f.write_str("base force"),
             Self::BaseMoment => f.write_str("base moment"),

@@ -13,7 +13,7 @@ use strands::rod::{Kinematics, Law, Profile, RestShape, RodDescription, Stiffnes
 const TOLERANCE: f64 = 1e-6;
 
 pub(crate) fn cases() -> Vec<Case> {
-    vec![dead_load(), follower_load(), end_moment(), heavy_cantilever(), reissner()]
+    vec![dead_load(), follower_load(), end_moment(), heavy_cantilever(), reissner(), timoshenko()]
 }
 
 /// The frame of a planar rod that points along x.
@@ -180,6 +180,40 @@ fn reissner() -> Case {
         source: "Reissner, ZAMP 23:795–804, 1972; computed twice, shooting and collocation agree to 1e-13",
         tolerance: TOLERANCE,
         elements: 200,
+        rows: rows.collect(),
+        remark: None,
+    }
+}
+
+fn timoshenko() -> Case {
+    let table = Table::read(include_str!("../data/timoshenko_cantilever.csv"));
+    let rows = table.records().flat_map(|record| {
+        let [axial, shear, bending, length] =
+            ["EA", "GA", "EI", "length"].map(|column| record.number(column));
+        let small = |load: &str, tip_force: Wrench, force_per_length: Vec3| {
+            let [deflection, rotation] =
+                ["deflection", "rotation"].map(|what| record.number(&format!("{load}_{what}")));
+            let expected = vec![
+                Expected::deflection(length, Vec3::Y, deflection),
+                Expected::orientation(length, turned(rotation)).measured_by(rotation),
+            ];
+            let label = format!("GA = {shear}, EI = {bending}, L = {length}, {load}");
+            let mut row = row(label, straight(length, bending, Some([axial, shear])), tip_force, expected);
+            row.setup.force_per_length = force_per_length;
+            row
+        };
+        [
+            small("force", force(0.0, record.number("force")), Vec3::ZERO),
+            small("weight", force(0.0, 0.0), Vec3::Y * record.number("weight")),
+        ]
+    });
+    Case {
+        name: "timoshenko-cantilever".into(),
+        title: "Cantilever that shears, deflection and rotation of its tip under a small force or weight"
+            .into(),
+        source: "Timoshenko, Phil. Mag. 41:744–746, 1921; Gazzola et al., R. Soc. Open Sci. 5:171628, 2018",
+        tolerance: TOLERANCE,
+        elements: 100,
         rows: rows.collect(),
         remark: None,
     }

@@ -59,6 +59,11 @@ fn shear_and_stretch_match_reissner() {
 }
 
 #[test]
+fn small_deflections_match_timoshenko() {
+    check("timoshenko-cantilever", 1e-12);
+}
+
+#[test]
 fn the_45_degree_bend_matches_its_converged_values() {
     check("bend-45", 1e-12);
 }
