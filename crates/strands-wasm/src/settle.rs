@@ -100,7 +100,7 @@ impl Way {
         workspace: &mut Workspace,
     ) -> Bit {
         if self.step < SMALLEST_STEP {
-            return self.start_elsewhere();
+            return self.start_elsewhere(goal, settings, workspace);
         }
         let whole = self.step >= 1.0;
         let next = if whole { *hand } else { between(&self.at.hand, hand, self.step) };
@@ -130,9 +130,12 @@ impl Way {
         !lost && largest_turn(&before.poses, &found.poses) <= LARGEST_TURN
     }
 
-    fn start_elsewhere(&mut self) -> Bit {
+    /// From another start, and when none is left, from rest: the branch that the thread was on may end here, and then it snaps to another.
+    fn start_elsewhere(&mut self, goal: &Problem, settings: &Settings, workspace: &mut Workspace) -> Bit {
         let Some(start) = self.others.pop() else {
-            return self.unstable.take().map_or(Bit::Stuck, Bit::Arrived);
+            let stable = |found: &Solution| found.report.morse_index.unwrap_or(0) == 0;
+            let snapped = solve(goal, settings, None, workspace).ok().filter(stable);
+            return snapped.or_else(|| self.unstable.take()).map_or(Bit::Stuck, Bit::Arrived);
         };
         (self.at, self.step, self.shape, self.continuous) = (start, FIRST_STEP, None, false);
         Bit::Trying

@@ -125,7 +125,7 @@ fn from_rest(
         return path::from_rest(problem, settings, Route::Straight, Vec3::ZERO, workspace, report);
     }
     let mut best: Option<Search> = None;
-    let routes = [Route::Straight, Route::MoveThenTurn];
+    let routes = [Route::Straight, Route::MoveThenTurn, Route::MoveThenTurnBack];
     for (nudge, route) in
         path::nudges(problem).into_iter().flat_map(|nudge| routes.map(|route| (nudge, route)))
     {

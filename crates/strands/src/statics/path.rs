@@ -16,11 +16,14 @@ use super::solution::{Guess, Scheme, Settings, SolveReport};
 use super::stability::morse_index;
 use crate::load::NodalLoads;
 use crate::math::{Mat3, Pose, Quat, Vec3, Wrench};
+use core::f64::consts::PI;
 
 /// The first step of a way.
 const FIRST_STEP: f64 = 0.25;
 /// Iterations that a search on the way may take before the step counts as too long.
 const ITERATIONS_ON_THE_WAY: usize = 12;
+/// Steps after which a walk is given up: it would take many times longer than from elsewhere, or than a user waits.
+const MOST_STEPS: usize = 300;
 /// How far, in rad, one step may turn any part of the rod: more is a jump to another branch.
 const LARGEST_TURN_OF_A_STEP: f64 = 1.0;
 /// How many nodes are watched for that.
@@ -54,6 +57,8 @@ enum Change {
     LoadsGrow(Vec3),
     /// The end moves, and the force across the rod fades.
     EndMoves(Vec3),
+    /// The end turns, the long way round.
+    EndTurnsBack,
 }
 
 /// How a held end gets to its place.
@@ -63,6 +68,8 @@ pub(crate) enum Route {
     Straight,
     /// It moves first, free to turn, and then turns.
     MoveThenTurn,
+    /// The same, but it turns the long way round: to another branch, which goes on where that of the short way ends.
+    MoveThenTurnBack,
 }
 
 /// Walks from rest to the problem. `nudge` is the direction of the force across the rod.
@@ -81,13 +88,15 @@ pub(crate) fn from_rest(
     }
     let loose = Problem { end: End::free(from.pose), ..problem.clone() };
     let mut stages = vec![(loose, Change::LoadsGrow(nudge))];
-    if route == Route::MoveThenTurn {
+    if route == Route::Straight {
+        stages.push((problem.clone(), Change::EndMoves(nudge)));
+    } else {
+        let turn =
+            if route == Route::MoveThenTurn { Change::EndMoves(Vec3::ZERO) } else { Change::EndTurnsBack };
         let mut pinned = problem.clone();
         pinned.end.fixed[..3].fill(false);
         stages.push((pinned, Change::EndMoves(nudge)));
-        stages.push((problem.clone(), Change::EndMoves(Vec3::ZERO)));
-    } else {
-        stages.push((problem.clone(), Change::EndMoves(nudge)));
+        stages.push((problem.clone(), turn));
     }
     let mut search = None;
     for (stage, change) in &stages {
@@ -131,6 +140,7 @@ fn walk(
     let mut reached = search.state;
     let mut index = morse_index(&family, &reached, workspace);
     let mut shape = sampled(workspace);
+    let most = report.path_steps + MOST_STEPS;
     while search.outcome == Outcome::Converged && at < 1.0 {
         let next = f64::min(at + step, 1.0);
         set(&mut family, problem, from, change, next);
@@ -153,7 +163,7 @@ fn walk(
             if report.iterations - before <= 5 {
                 step *= 1.7;
             }
-        } else if step <= smallest {
+        } else if step <= smallest || report.path_steps >= most {
             return tried;
         } else {
             step *= 0.5;
@@ -179,7 +189,10 @@ fn set(family: &mut Problem, problem: &Problem, from: &Guess, change: Change, at
         if at >= 1.0 {
             return *target;
         }
-        let turn = from.pose.between(target).log().angular;
+        let mut turn = from.pose.between(target).log().angular;
+        if matches!(change, Change::EndTurnsBack) && turn != Vec3::ZERO {
+            turn = turn * (1.0 - 2.0 * PI / turn.norm());
+        }
         Pose {
             rotation: from.pose.rotation * Quat::from_rotation_vector(turn * at).to_matrix(),
             position: from.pose.position + (target.position - from.pose.position) * at,
@@ -192,6 +205,7 @@ fn set(family: &mut Problem, problem: &Problem, from: &Guess, change: Change, at
     let (share, nudge) = match change {
         Change::LoadsGrow(nudge) => (at, nudge * at),
         Change::EndMoves(nudge) => (1.0, nudge * (1.0 - at)),
+        Change::EndTurnsBack => (1.0, Vec3::ZERO),
     };
     let nudge = nudge * (1.0 / problem.rod.elements() as f64);
     for (now, whole) in family.loads.world.iter_mut().zip(&problem.loads.world) {
