@@ -22,6 +22,8 @@ pub struct State {
     outcome: Outcome,
     /// What is left to try where the hand was not reached at once.
     way: Option<Way>,
+    /// Whether no other branch was found since the hand was last reached: looking again would hold up the hand in vain.
+    stuck: bool,
     /// The shape that the scene opened with, where it is held.
     home: Option<Start>,
 }
@@ -56,6 +58,7 @@ impl State {
             last_hand: hand,
             outcome,
             way: None,
+            stuck: false,
             home,
         })
     }
@@ -222,7 +225,10 @@ impl State {
                 self.last_hand = hand;
             }
             Bit::Trying => {}
-            Bit::Stuck => return false,
+            Bit::Stuck => {
+                self.stuck = true;
+                return false;
+            }
         }
         self.way = Some(way);
         true
@@ -237,6 +243,7 @@ impl State {
 
     fn reached(&mut self, report: SolveReport) {
         self.way = None;
+        self.stuck = false;
         if !self.mode.leads() {
             self.hand = tip(self.solution());
             self.last_hand = self.hand;
@@ -249,7 +256,7 @@ impl State {
     fn set_out(&mut self, reason: String, report: SolveReport, unstable: Option<Solution>) {
         let last = self.last_start();
         let others = if self.mode.leads() { self.home.into_iter().collect() } else { Vec::new() };
-        self.way = Some(Way::new(last, self.solution().clone(), others, unstable));
+        self.way = Some(Way::new(last, self.solution().clone(), others, unstable, !self.stuck));
         self.outcome = Outcome { report, reason: Some(reason), saturated: false };
     }
 

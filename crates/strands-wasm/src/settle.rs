@@ -58,6 +58,10 @@ impl Start {
     }
 }
 
+/// How small the steps may become on the way from rest to another branch, which cannot be interrupted: it takes a quarter of a second where
+/// there is one, and two seconds where not.
+const HALVINGS_OF_A_SNAP: usize = 8;
+
 /// A way that is being walked.
 #[derive(Debug)]
 pub struct Way {
@@ -70,6 +74,8 @@ pub struct Way {
     others: Vec<Start>,
     /// An unstable shape at the hand, for want of a stable one.
     unstable: Option<Solution>,
+    /// Whether to look for another branch from rest, once all else has failed.
+    may_snap: bool,
 }
 
 /// What one bit of work brought.
@@ -87,8 +93,14 @@ pub enum Bit {
 
 impl Way {
     /// A way from the last shape, and if that is blocked, from others.
-    pub fn new(last: Start, shape: Solution, others: Vec<Start>, unstable: Option<Solution>) -> Self {
-        Self { at: last, step: FIRST_STEP, shape: Some(shape), continuous: true, others, unstable }
+    pub fn new(
+        last: Start,
+        shape: Solution,
+        others: Vec<Start>,
+        unstable: Option<Solution>,
+        may_snap: bool,
+    ) -> Self {
+        Self { at: last, step: FIRST_STEP, shape: Some(shape), continuous: true, others, unstable, may_snap }
     }
 
     /// Does one bit of the work to get to a problem whose end the hand holds.
@@ -134,7 +146,9 @@ impl Way {
     fn start_elsewhere(&mut self, goal: &Problem, settings: &Settings, workspace: &mut Workspace) -> Bit {
         let Some(start) = self.others.pop() else {
             let stable = |found: &Solution| found.report.morse_index.unwrap_or(0) == 0;
-            let snapped = solve(goal, settings, None, workspace).ok().filter(stable);
+            let quick = Settings { max_halvings: HALVINGS_OF_A_SNAP, ..*settings };
+            let snapped = if self.may_snap { solve(goal, &quick, None, workspace).ok() } else { None };
+            let snapped = snapped.filter(stable);
             return snapped.or_else(|| self.unstable.take()).map_or(Bit::Stuck, Bit::Arrived);
         };
         (self.at, self.step, self.shape, self.continuous) = (start, FIRST_STEP, None, false);
