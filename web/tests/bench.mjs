@@ -1,18 +1,13 @@
 // What a sweep and a warm search of 100 elements cost in the browser, and how many times as much as without one: `npm run bench`.
 
 import { execFileSync } from 'node:child_process'
-import { existsSync } from 'node:fs'
 import { readFile } from 'node:fs/promises'
 import { fileURLToPath } from 'node:url'
-import { chromium } from 'playwright-core'
+import { launch } from './browser.mjs'
 
-const KNOWN = ['/usr/bin/chromium', '/usr/bin/chromium-browser', '/usr/bin/google-chrome']
 const module = (name) => readFile(fileURLToPath(new URL(`../src/wasm/${name}`, import.meta.url)))
 
-const browser = await chromium.launch({
-  executablePath: process.env.CHROMIUM ?? KNOWN.find(existsSync),
-  args: ['--no-sandbox', '--disable-background-networking', '--no-first-run'],
-})
+const browser = await launch()
 const page = await browser.newPage()
 await page.route('**/*', async (route) => {
   const name = new URL(route.request().url()).pathname.slice(1)

@@ -12,6 +12,14 @@ export const out = fileURLToPath(new URL('./out/', import.meta.url))
 const TYPES = { '.html': 'text/html', '.js': 'text/javascript', '.css': 'text/css', '.wasm': 'application/wasm', '.webp': 'image/webp' }
 const KNOWN = ['/usr/bin/chromium', '/usr/bin/chromium-browser', '/usr/bin/google-chrome']
 
+/** A Chromium that draws WebGL in software. */
+export function launch() {
+  return chromium.launch({
+    executablePath: process.env.CHROMIUM ?? KNOWN.find(existsSync),
+    args: ['--no-sandbox', '--use-angle=swiftshader', '--enable-unsafe-swiftshader', '--disable-background-networking', '--no-first-run'],
+  })
+}
+
 export async function start() {
   await mkdir(out, { recursive: true })
   const server = createServer(async (request, response) => {
@@ -25,10 +33,7 @@ export async function start() {
     }
   })
   await new Promise((resolve) => server.listen(0, '127.0.0.1', resolve))
-  const browser = await chromium.launch({
-    executablePath: process.env.CHROMIUM ?? KNOWN.find(existsSync),
-    args: ['--no-sandbox', '--use-angle=swiftshader', '--enable-unsafe-swiftshader', '--disable-background-networking', '--no-first-run'],
-  })
+  const browser = await launch()
   const address = `http://127.0.0.1:${server.address().port}/`
   return { browser, address, stop: async () => (await browser.close(), server.close()) }
 }

@@ -2,8 +2,8 @@
 //!
 //! First in small steps from the last shape. Where the thread would have to snap over, that way ends at the snap; then from the shape that
 //! the scene opened with. Steps that turn a part of the thread by a radian, or lose stability, are made smaller; an unstable shape at the hand is
-//! taken when no way leads to a stable one. A start from rest, with its many
-//! routes, would take too long for a hand that moves.
+//! taken when no way leads to a stable one. A start from rest, with its many routes, cannot be
+//! interrupted, so it comes after all other starts: by then the hand rests.
 
 use strands::coupling::VirtualCoupling;
 use strands::math::{Mat3, Pose, Quat};

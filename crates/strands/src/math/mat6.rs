@@ -74,13 +74,11 @@ impl Mat6 {
 pub struct Lu<const N: usize> {
     factors: [[f64; N]; N],
     rows: [usize; N],
-    odd: bool,
 }
 
 /// Factors a matrix; `None` where a pivot is zero or not finite.
 pub fn lu<const N: usize>(mut a: [[f64; N]; N]) -> Option<Lu<N>> {
     let mut rows: [usize; N] = core::array::from_fn(|i| i);
-    let mut odd = false;
     for k in 0..N {
         let pivot = (k..N).fold(k, |best, i| if a[i][k].abs() > a[best][k].abs() { i } else { best });
         if !(a[pivot][k].abs() > 0.0 && a[pivot][k].is_finite()) {
@@ -89,7 +87,6 @@ pub fn lu<const N: usize>(mut a: [[f64; N]; N]) -> Option<Lu<N>> {
         if pivot != k {
             a.swap(pivot, k);
             rows.swap(pivot, k);
-            odd = !odd;
         }
         let scale = 1.0 / a[k][k];
         for i in k + 1..N {
@@ -100,7 +97,7 @@ pub fn lu<const N: usize>(mut a: [[f64; N]; N]) -> Option<Lu<N>> {
             }
         }
     }
-    Some(Lu { factors: a, rows, odd })
+    Some(Lu { factors: a, rows })
 }
 
 impl<const N: usize> Lu<N> {
@@ -119,16 +116,5 @@ impl<const N: usize> Lu<N> {
             x[i] /= self.factors[i][i];
         }
         x
-    }
-
-    /// Whether the determinant is negative.
-    pub fn determinant_is_negative(&self) -> bool {
-        (0..N).fold(self.odd, |odd, i| odd ^ (self.factors[i][i] < 0.0))
-    }
-
-    /// Smallest over largest pivot: a cheap hint of how near the matrix is to a singular one.
-    pub fn pivot_ratio(&self) -> f64 {
-        let pivots = (0..N).map(|i| self.factors[i][i].abs());
-        pivots.clone().fold(f64::INFINITY, f64::min) / pivots.fold(0.0, f64::max)
     }
 }

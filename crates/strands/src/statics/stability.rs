@@ -39,13 +39,12 @@ pub(crate) fn morse_index(problem: &Problem, state: &EndState, workspace: &Works
     let last = problem.rod.elements() - 1;
     let axes = Axes::new(problem, workspace);
     let (displacements, stiffness) = end(problem, state, &axes, workspace.record.wrenches[last]);
-    let (mut pivot, mut cross) = axes.element(problem, workspace, last)?;
+    let (mut stiff, mut cross) = axes.element(problem, workspace, last)?;
     // A fixed freedom has no displacement: its row and column are zero, and its pivot one.
     cross = displacements.transpose().mul(&cross);
     let fixed = Vec6::from(problem.end.fixed.map(|fixed| f64::from(u8::from(fixed))));
-    let mut stiff = pivot;
-    pivot =
-        displacements.transpose().mul(&pivot).mul(&displacements).add(&stiffness).add(&Mat6::diagonal(fixed));
+    let mut pivot =
+        displacements.transpose().mul(&stiff).mul(&displacements).add(&stiffness).add(&Mat6::diagonal(fixed));
     let mut index = negative(&pivot);
     for e in (0..last).rev() {
         let load =
