@@ -17,8 +17,11 @@
 //! Planar cases lie in the plane of x and y with the base at the origin and its tangent along x. A problem with a prescribed tip pose has many
 //! equilibria, and a solver may return any of them; [`Answer::index`] says how stable each is.
 //!
+//! [`bank`] has rods drawn at random, to find what a solver cannot do.
+//!
 //! [`workloads`] are long runs of problems, each next to the one before, as an interactive program has them.
 
+pub mod bank;
 mod case;
 mod expected;
 mod planar;

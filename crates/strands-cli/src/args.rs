@@ -57,6 +57,8 @@ pub enum MethodName {
     Sweep,
     /// A search for what is unknown at the end
     Shooting,
+    /// All frames at once, moving to where the rod rests
+    Equilibrium,
 }
 
 /// `strands solve`.

@@ -191,7 +191,12 @@ fn coupling() -> impl Strategy<Value = CouplingFile> {
 
 fn solver() -> impl Strategy<Value = SolverFile> {
     use JacobianName::*;
-    let method = prop::sample::select(vec![MethodName::Auto, MethodName::Sweep, MethodName::Shooting]);
+    let method = prop::sample::select(vec![
+        MethodName::Auto,
+        MethodName::Sweep,
+        MethodName::Shooting,
+        MethodName::Equilibrium,
+    ]);
     let jacobian = vec![Variational, VariationalLanes, FiniteDifferences, FiniteDifferenceLanes];
     let scheme = prop::sample::select(vec![SchemeName::Element, SchemeName::Multistep]);
     (

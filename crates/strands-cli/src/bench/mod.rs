@@ -15,6 +15,7 @@ use strands::rod::{Kinematics, Order, RodError};
 use strands::statics::{
     Guess, Jacobian, Problem, Scheme, Settings, Solution, SolveFailure, SolveReport, Workspace, follow, solve,
 };
+use strands_cases::bank;
 
 /// What `--help` says about the figures.
 pub const NAMES: &str = "\
@@ -36,6 +37,8 @@ Figures (of a steel wire 0.5 m long, 2 mm thick, where no other is named; one th
   suture-pose steel-pose steel-wrench
                                    with .median and .worst: 300 frames of a moving end, 100
                                    elements, residual 1e-10, each from the one before, µs
+  bank.mean .median .p99 .worst    rods drawn at random, clamped at the base and held at the tip,
+                                   100 elements, from rest, ms; .unsolved and .unstable of 10000
 
 Times are medians of batches that take turns. With --instructions the figures are counts, the same in
 every run: of an element in a sweep (sweep.*) and in a Jacobian by lanes (jacobian), by callgrind,
@@ -77,6 +80,7 @@ pub fn measure() -> Result<Vec<Figure>, BenchError> {
     figures.extend(jacobians()?);
     figures.extend(cost()?);
     figures.extend(workloads()?);
+    figures.extend(bank()?);
     Ok(figures)
 }
 
@@ -92,6 +96,33 @@ pub fn table(figures: &[Figure], level: SimdLevel) -> String {
 
 fn figure(name: impl Into<String>, value: f64, unit: &'static str) -> Figure {
     Figure { name: name.into(), value, unit }
+}
+
+/// Rods drawn at random, each solved once, from rest.
+fn bank() -> Result<Vec<Figure>, BenchError> {
+    let (settings, mut workspace) = (Settings::default(), Workspace::default());
+    let (mut times, mut unsolved, mut unstable) = (Vec::new(), 0.0, 0.0);
+    for number in 0..bank::RODS {
+        let problem = bank::problem(number, 100, Order::Second)?;
+        let start = Instant::now();
+        let solution = black_box(solve(&problem, &settings, None, &mut workspace));
+        times.push(start.elapsed().as_secs_f64() * 1e3);
+        match solution {
+            Ok(solution) if solution.report.morse_index == Some(0) => {}
+            Ok(_) => unstable += 1.0,
+            Err(_) => unsolved += 1.0,
+        }
+    }
+    let mean = times.iter().sum::<f64>() / times.len() as f64;
+    let mut of = |part| clock::quantile(&mut times, part);
+    Ok(vec![
+        figure("bank.mean", mean, "ms"),
+        figure("bank.median", of(0.5), "ms"),
+        figure("bank.p99", of(0.99), "ms"),
+        figure("bank.worst", of(1.0), "ms"),
+        figure("bank.unsolved", unsolved, "rods"),
+        figure("bank.unstable", unstable, "rods"),
+    ])
 }
 
 /// The named workloads: each frame's search from the frame before, 100 elements.

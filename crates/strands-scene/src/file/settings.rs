@@ -37,6 +37,8 @@ pub enum MethodName {
     Sweep,
     /// A search for what is unknown at the end.
     Shooting,
+    /// All frames at once, moving to where the rod rests. Finds stable equilibria only; needs order 2 or 4.
+    Equilibrium,
 }
 
 /// How the Jacobian of the shooting residual is found. All give the same solution.

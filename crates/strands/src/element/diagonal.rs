@@ -492,6 +492,71 @@ impl<R: Real> DiagonalFlexibility<R> {
     }
 }
 
+/// How an element of order 2, or several side by side, answers to its exponent `x` and to the wrench `w` through its far node.
+struct Turned<R> {
+    /// The tangent of the exponential: `turn` on its diagonal, `shift` below it.
+    turn: Mat3<Vec3<R>>,
+    shift: Mat3<Vec3<R>>,
+    /// `∂m̄/∂u`.
+    moment_by_turn: Mat3<Vec3<R>>,
+    /// `∂m̄/∂v` and `∂n̄/∂u`, which are the same; `∂n̄/∂v` is zero.
+    common: Mat3<Vec3<R>>,
+    /// `T(x)ᵀ w`.
+    mean: Wrench<Vec3<R>>,
+}
+
+impl<R: Real> Turned<R> {
+    #[inline(always)]
+    fn new(x: Vec6<Vec3<R>>, w: Wrench<Vec3<R>>) -> Self {
+        let (u, v, m, n) = (x.angular, x.linear, w.angular, w.linear);
+        let t = u.dot(u);
+        let k = exp_coefficients(t);
+        let (ddb, ddc) = exp_coefficients_second(t);
+        let two = R::splat(2.0);
+        let twice = u.dot(v) * two;
+        // The tangent, by the identities û² = u uᵀ − t and û v̂ + v̂ û = v uᵀ + u vᵀ − 2 u·v.
+        let turn = outer_plus_hat(u * k.c, u, R::one() - t * k.c, -(u * k.b));
+        let shift = outer(v * k.c, u)
+            + outer_plus_hat(
+                u * (twice * k.dc),
+                u,
+                -(twice * (k.c + t * k.dc)),
+                -(v * k.b + u * (twice * k.db)),
+            )
+            + outer(u * k.c, v);
+        let un = u.cross(n);
+        let uun = u.cross(un);
+        let first = u.cross(m) + v.cross(n);
+        let second = u.cross(first) + v.cross(un);
+        // ∂m̄/∂u, with û m̂ = m uᵀ − u·m and the like.
+        let coupling = (un * k.db + uun * k.dc) * two;
+        let along_u = (first * k.db + second * k.dc + (un * ddb + uun * ddc) * twice) * two
+            - (m * k.c + n * (twice * k.dc));
+        let along_v = coupling - n * k.c;
+        let trace = k.c * (u.dot(m) + v.dot(n)) + twice * k.dc * u.dot(n);
+        let hat = m * k.b + first * k.c + n * (twice * k.db) + un * (twice * k.dc);
+        Self {
+            turn,
+            shift,
+            moment_by_turn: outer(along_u, u) + outer_plus_hat(along_v, v, trace, -hat),
+            common: outer_plus_hat(along_v, u, k.c * u.dot(n), -(n * k.b + un * k.c)),
+            mean: Wrench::new(
+                m + first * k.b + second * k.c + un * (twice * k.db) + uun * (twice * k.dc),
+                n + un * k.b + uun * k.c,
+            ),
+        }
+    }
+
+    /// The tangent seen from a frame in which the far node has the given pose.
+    #[inline(always)]
+    fn tangent_seen_from(&self, far: &Pose<Vec3<R>>) -> (Mat3<Vec3<R>>, Mat3<Vec3<R>>) {
+        let turn = far.rotation * self.turn;
+        let [a, b, c] = turn.cols;
+        let p = far.position;
+        (turn, far.rotation * self.shift + Mat3::from_cols(p.cross(a), p.cross(b), p.cross(c)))
+    }
+}
+
 /// [`flexibility`](super::flexibility) for order 2 and a diagonal law: from `h S`, the exponent, and the wrench through the far node.
 #[inline(always)]
 pub(crate) fn diagonal_flexibility<R: Real>(
@@ -499,30 +564,7 @@ pub(crate) fn diagonal_flexibility<R: Real>(
     x: Vec6<Vec3<R>>,
     w: Wrench<Vec3<R>>,
 ) -> DiagonalFlexibility<R> {
-    let (u, v, m, n) = (x.angular, x.linear, w.angular, w.linear);
-    let t = u.dot(u);
-    let k = exp_coefficients(t);
-    let (ddb, ddc) = exp_coefficients_second(t);
-    let two = R::splat(2.0);
-    let twice = u.dot(v) * two;
-    // The tangent, by the identities û² = u uᵀ − t and û v̂ + v̂ û = v uᵀ + u vᵀ − 2 u·v.
-    let turn = outer_plus_hat(u * k.c, u, R::one() - t * k.c, -(u * k.b));
-    let shift = outer(v * k.c, u)
-        + outer_plus_hat(u * (twice * k.dc), u, -(twice * (k.c + t * k.dc)), -(v * k.b + u * (twice * k.db)))
-        + outer(u * k.c, v);
-    let un = u.cross(n);
-    let uun = u.cross(un);
-    let first = u.cross(m) + v.cross(n);
-    let second = u.cross(first) + v.cross(un);
-    // ∂m̄/∂u, with û m̂ = m uᵀ − u·m and the like.
-    let coupling = (un * k.db + uun * k.dc) * two;
-    let along_u = (first * k.db + second * k.dc + (un * ddb + uun * ddc) * twice) * two
-        - (m * k.c + n * (twice * k.dc));
-    let along_v = coupling - n * k.c;
-    let trace = k.c * (u.dot(m) + v.dot(n)) + twice * k.dc * u.dot(n);
-    let hat = m * k.b + first * k.c + n * (twice * k.db) + un * (twice * k.dc);
-    let moment_by_turn = outer(along_u, u) + outer_plus_hat(along_v, v, trace, -hat);
-    let common = outer_plus_hat(along_v, u, k.c * u.dot(n), -(n * k.b + un * k.c));
+    let Turned { turn, shift, moment_by_turn, common, .. } = Turned::new(x, w);
     // (1 − S K) δx = S Tᵀ δw; ∂n̄/∂v = 0 and ∂n̄/∂u = ∂m̄/∂v, so the shifts are eliminated by hand.
     let (bend, stretch) = (compliance.angular, compliance.linear);
     let (by_shift, c) = (scale_rows(bend, common), scale_rows(stretch, common));
@@ -535,6 +577,55 @@ pub(crate) fn diagonal_flexibility<R: Real>(
         b: scale_columns(schur * by_shift, stretch),
         c,
         stretch,
+    }
+}
+
+/// How an element, or several side by side, resists: seen from fixed axes.
+pub(crate) struct Resistance<R = f64> {
+    /// `F`: a change of its far frame against its near one, by `ξ`, changes the wrench that it carries by `F ξ`.
+    pub stiffness: [[Mat3<Vec3<R>>; 2]; 2],
+    /// How the wrench that it carries has to change for its law to hold at the frames as they are.
+    pub pull: Wrench<Vec3<R>>,
+    /// What its exponent is off by for the law to hold, in its own axes.
+    pub slack: Vec6<Vec3<R>>,
+}
+
+/// The resistance of an element of order 2 with a diagonal law, from `h S`, `h ε̂`, the exponent between its frames, the wrench through
+/// its far node, and the pose of that node in the fixed axes. `lent` is added to the compliance of its shifts, in the way to the solution and not
+/// in what must hold there.
+///
+/// With `x = h ε̂ + h S σ̄`, `σ̄ = T(x)ᵀ w`, the change of the wrench follows from that of the exponent, `T δx = ξ`:
+/// `Tᵀ δw = ((h S)⁻¹ − K) δx − (h S)⁻¹ (h ε̂ + h S σ̄ − x)`, with `K = ∂σ̄/∂x`.
+#[inline(always)]
+pub(crate) fn diagonal_resistance<R: Real>(
+    compliance: Vec6<Vec3<R>>,
+    rest: Vec6<Vec3<R>>,
+    lent: R,
+    x: Vec6<Vec3<R>>,
+    w: Wrench<Vec3<R>>,
+    far: &Pose<Vec3<R>>,
+) -> Resistance<R> {
+    let element = Turned::new(x, w);
+    let (turn, shift) = element.tangent_seen_from(far);
+    let inverse = turn.inverse();
+    let below = (inverse * shift * inverse).scaled(-R::one());
+    let slack = rest + compliance.scale(element.mean) - x;
+    let reciprocal = |v: Vec3<R>| Vec3::new(R::one() / v.x, R::one() / v.y, R::one() / v.z);
+    let (bend, stretch) =
+        (reciprocal(compliance.angular), reciprocal(compliance.linear + Vec3::new(lent, lent, lent)));
+    let bent = Mat3::diagonal(bend) - element.moment_by_turn;
+    // ((h S)⁻¹ − K) T⁻¹, block by block.
+    let top = [bent * inverse - element.common * below, (element.common * inverse).scaled(-R::one())];
+    let bottom = [scale_rows(stretch, below) + top[1], scale_rows(stretch, inverse)];
+    let (inverse_t, below_t) = (inverse.transpose(), below.transpose());
+    let (moment, force) = (bend.scale(slack.angular), stretch.scale(slack.linear));
+    Resistance {
+        stiffness: [
+            [inverse_t * top[0] + below_t * bottom[0], inverse_t * top[1] + below_t * bottom[1]],
+            [inverse_t * bottom[0], inverse_t * bottom[1]],
+        ],
+        pull: Wrench::new(-(inverse_t * moment + below_t * force), -(inverse_t * force)),
+        slack,
     }
 }
 

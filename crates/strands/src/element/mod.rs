@@ -21,11 +21,12 @@
 mod diagonal;
 
 pub(crate) use diagonal::{
-    DiagonalPoint, First, Fourth, LocalSolver, Multistep, Second, Solved, diagonal_flexibility,
+    DiagonalPoint, First, Fourth, LocalSolver, Multistep, Resistance, Second, Solved, diagonal_flexibility,
+    diagonal_resistance,
 };
 
 use crate::math::{
-    ExpCoefficients, Mat3, Mat6, Real, Strain, Stress, Vec3, Vec6, Vector, Wrench, exp_coefficients,
+    ExpCoefficients, Mat3, Mat6, Pose, Real, Strain, Stress, Vec3, Vec6, Vector, Wrench, exp_coefficients,
     exp_coefficients_second, lu, tangent,
 };
 use crate::rod::{Kinematics, Order, Point, Rod};
@@ -225,6 +226,35 @@ pub(crate) fn flexibility_of(
         }
         _ => flexibility(order, rod.kinematics(), h, rod.points(e), w, strain),
     }
+}
+
+/// The [`Resistance`] of an element of any order and law, seen from axes in which its far node has the pose `far`; `relative` is that node's
+/// pose in the near node's frame, and `strain` a guess, replaced by the strains that belong to the wrench. `lent` is added to the compliance of
+/// its shifts.
+///
+/// With `G` its flexibility and `g` the gap between where its exponential leads and where its far node is, `(G + lent) δw = ξ + g`.
+pub(crate) fn resistance(
+    rod: &Rod,
+    e: usize,
+    w: Wrench,
+    relative: &Pose,
+    far: &Pose,
+    strain: &mut PointStrains,
+    lent: f64,
+) -> Option<Resistance> {
+    let (order, kinematics, h, points) =
+        (rod.order(), rod.kinematics(), rod.element_length(e), rod.points(e));
+    let rest = core::array::from_fn(|i| points[i.min(points.len() - 1)].rest);
+    *strain = solve_general(order, kinematics, h, points, w, *strain)
+        .or_else(|| solve_general(order, kinematics, h, points, w, rest))?;
+    let gap = Pose::exp(exponent(order, h, strain)).between(relative).log();
+    let lend = Mat6::diagonal(Vec6::new(Vec3::ZERO, Vec3::new(lent, lent, lent)));
+    let factors = lu::<6>(flexibility(order, kinematics, h, points, w, strain)?.add(&lend).to_rows())?;
+    let columns = Mat6::IDENTITY.to_rows().map(|column| factors.solve(&column));
+    let stiffness = Mat6::from_rows(&columns).transpose();
+    let pull = far.carry_wrench(stiffness.mul_vec(gap));
+    let back = far.inverse().adjoint_matrix();
+    Some(Resistance { stiffness: back.transpose().mul(&stiffness).mul(&back).blocks, pull, slack: gap })
 }
 
 /// The local equations `σ(ε) − T-stress = 0` of an element and their derivative, stiffness form, dense.

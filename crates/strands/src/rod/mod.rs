@@ -272,6 +272,12 @@ impl Rod {
         self.order
     }
 
+    /// The same rod on the same nodes, its elements of order 2.
+    pub(crate) fn of_second_order(self) -> Self {
+        let (description, mesh) = (self.description, self.mesh);
+        Self::new(description, mesh, Order::Second).unwrap_or_else(|_| unreachable!("it was checked before"))
+    }
+
     /// The nodes.
     pub fn mesh(&self) -> &Mesh {
         &self.mesh

@@ -300,3 +300,45 @@ pub(crate) fn residual_slope(problem: &Problem, start: &Section, columns: &Colum
     }
     slope
 }
+
+/// The displacements, as variations of the frame seen from the axes that it is given in, that an end leaves free, one a column; the columns of
+/// those that it fixes are zero.
+pub(crate) fn displacements(end: &End, pose: &Pose) -> crate::math::Mat6 {
+    let turn = match end.turns() {
+        Turns::Mixed => pose.rotation * so3_tangent(end.turn_of(pose)),
+        _ => pose.rotation,
+    };
+    let mut rows = [[0.0; 6]; 6];
+    for k in (0..6).filter(|k| !end.fixed[*k]) {
+        rows[k] = if k < 3 {
+            let axis = turn * unit(k);
+            Vec6::new(axis, pose.position.cross(axis)).to_array()
+        } else {
+            Vec6::new(Vec3::ZERO, unit(k - 3)).to_array()
+        };
+    }
+    crate::math::Mat6::from_rows(&rows).transpose()
+}
+
+/// How the wrench on the displacements that an end leaves free changes with each of them while the wrench itself does not, negative: the part that
+/// the hold adds to the stiffness against them. By central differences, and only where an end is held in some freedoms and free in others.
+pub(crate) fn displacements_slope(end: &End, pose: &Pose, wrench: Wrench) -> crate::math::Mat6 {
+    let mut rows = [[0.0; 6]; 6];
+    if end.fixed.iter().all(|fixed| *fixed == end.fixed[0]) {
+        return crate::math::Mat6::ZERO;
+    }
+    let free = displacements(end, pose).transpose().to_rows();
+    let step = 1e-5;
+    for k in (0..6).filter(|k| !end.fixed[*k]) {
+        let along = Vec6::from(free[k]);
+        let at = |sign: f64| {
+            let x = along * (sign * step);
+            let turn = Quat::from_rotation_vector(x.angular).to_matrix();
+            let shift = x.linear + x.angular.cross(pose.position);
+            let moved = Pose { rotation: turn * pose.rotation, position: pose.position + shift };
+            displacements(end, &moved).transpose().mul_vec(wrench)
+        };
+        rows[k] = ((at(1.0) - at(-1.0)) * (-0.5 / step)).to_array();
+    }
+    crate::math::Mat6::from_rows(&rows).transpose()
+}

@@ -5,7 +5,9 @@
 //! with a prescribed end, it is a search for what is unknown at the end: [`Method::Shooting`].
 
 mod boundary;
+mod equilibrium;
 mod march;
+mod nodal;
 mod path;
 mod problem;
 mod refine;
@@ -24,9 +26,8 @@ pub use solution::{
 };
 
 use crate::math::{Vec3, Vec6};
-use crate::rod::Kinematics;
+use crate::rod::{Kinematics, Order};
 use boundary::{EndState, loaded_start};
-use path::Route;
 use shooting::{Outcome, Search, shoot};
 
 /// Finds an equilibrium of a problem, starting from a guess (the last frame's solution) or from rest.
@@ -45,11 +46,8 @@ pub fn solve(
         return Err(failure(problem, &search, reason, workspace, report));
     }
     let search = find(problem, settings, guess, workspace, &mut report);
-    report.morse_index = if search.outcome == Outcome::Converged {
-        stability::morse_index(problem, &search.state, workspace)
-    } else {
-        None
-    };
+    report.morse_index =
+        if search.outcome == Outcome::Converged { stability::morse_index(problem, workspace) } else { None };
     let reason = match search.outcome {
         Outcome::Converged => return Ok(solution(problem, &search, workspace, report)),
         Outcome::Singular => FailureReason::Singular,
@@ -75,8 +73,12 @@ pub fn follow(
     report: &mut SolveReport,
 ) -> bool {
     report.restart(Method::Shooting);
-    let state = EndState::from_guess(problem, guess);
-    let search = shoot(problem, settings, state, guess.inverse, workspace, report);
+    let search = if all_at_once(problem, settings, guess) {
+        equilibrium::from_guess(problem, settings, guess, workspace, report)
+    } else {
+        let state = EndState::from_guess(problem, guess);
+        shoot(problem, settings, state, guess.inverse, workspace, report)
+    };
     let converged = search.outcome == Outcome::Converged;
     if converged {
         *guess = search.guess(problem);
@@ -84,7 +86,8 @@ pub fn follow(
     converged
 }
 
-/// Chooses the way: two sweeps where they suffice, a search from the guess, a walk from the guess, a walk from rest.
+/// Chooses the way: two sweeps where they suffice; from a guess a search by shooting where that keeps its digits, and all frames at once where
+/// not; and from rest.
 fn find(
     problem: &Problem,
     settings: &Settings,
@@ -92,20 +95,19 @@ fn find(
     workspace: &mut Workspace,
     report: &mut SolveReport,
 ) -> Search {
+    let shooting = matches!(settings.method, Method::Auto | Method::Shooting);
     let standard = sweep::not_standard(problem).is_none();
     report.method =
         if standard && settings.method != Method::Shooting { Method::Sweep } else { Method::Shooting };
     report.path_steps = 1;
-    if report.method == Method::Sweep && !problem.loads.any_in_world() {
+    if shooting | (settings.method == Method::Sweep)
+        && report.method == Method::Sweep
+        && !problem.loads.any_in_world()
+    {
         return sweep::two_sweeps(problem, settings, workspace, report);
     }
     if let Some(guess) = guess {
-        let state = EndState::from_guess(problem, guess);
-        let search = shoot(problem, settings, state, guess.inverse, workspace, report);
-        if search.outcome == Outcome::Converged {
-            return search;
-        }
-        let search = path::from_solution(problem, guess, settings, workspace, report);
+        let search = from_guess(problem, settings, guess, workspace, report);
         if search.outcome == Outcome::Converged || !settings.restart_from_rest {
             return search;
         }
@@ -113,25 +115,108 @@ fn find(
     from_rest(problem, settings, workspace, report)
 }
 
-/// Walks from rest; where the end's place is prescribed, tries the routes to it and the sides to buckle to until the equilibrium found is
-/// stable.
+/// Beyond this many of the lengths `ℓ = √(EI/T)` over which a rod under the tension `T` bends, shooting has lost its digits: it loses a
+/// factor `exp(L/ℓ)`.
+const LONGEST_SHOT: f64 = 18.0;
+
+/// Whether shooting is out of place: for the wrench of a guess, or by what was asked for.
+fn all_at_once(problem: &Problem, settings: &Settings, guess: &Guess) -> bool {
+    let weight: f64 = problem.loads.world.iter().map(|load| load.linear.norm()).sum();
+    let tension = guess.wrench.linear.z.max(0.0) + weight;
+    let taut = tension > LONGEST_SHOT * LONGEST_SHOT * problem.rod.scale().force;
+    settings.method == Method::Equilibrium
+        || settings.method == Method::Auto && has_energy(problem, settings) && is_held(problem) && taut
+}
+
+/// Whether the elements derive from an energy, so that the rod can move down it. Euler's and the multistep scheme do not.
+fn has_energy(problem: &Problem, settings: &Settings) -> bool {
+    settings.scheme == Scheme::Element && problem.rod.order() != Order::First
+}
+
+fn from_guess(
+    problem: &Problem,
+    settings: &Settings,
+    guess: &Guess,
+    workspace: &mut Workspace,
+    report: &mut SolveReport,
+) -> Search {
+    if all_at_once(problem, settings, guess) {
+        return equilibrium::from_guess(problem, settings, guess, workspace, report);
+    }
+    let state = EndState::from_guess(problem, guess);
+    let search = shoot(problem, settings, state, guess.inverse, workspace, report);
+    if search.outcome == Outcome::Converged {
+        return search;
+    }
+    if settings.method == Method::Auto && has_energy(problem, settings) && is_held(problem) {
+        return equilibrium::from_guess(problem, settings, guess, workspace, report);
+    }
+    path::from_solution(problem, guess, settings, workspace, report)
+}
+
+/// Whether the rod is held by more than its clamped start.
+fn is_held(problem: &Problem) -> bool {
+    problem.end.fixed[3..].contains(&true) || problem.start.fixed != [true; 6]
+}
+
 fn from_rest(
     problem: &Problem,
     settings: &Settings,
     workspace: &mut Workspace,
     report: &mut SolveReport,
 ) -> Search {
+    if settings.method == Method::Equilibrium {
+        return equilibrium::from_rest(problem, settings, workspace, report);
+    }
+    if settings.method != Method::Auto {
+        return by_shooting(problem, settings, workspace, report);
+    }
+    if is_held(problem) {
+        return by_moving(problem, settings, workspace, report);
+    }
+    // One that hangs free from its clamp is loaded little by little, so that of many equilibria it finds the one on the path of loads.
+    let search = by_shooting(problem, settings, workspace, report);
+    if search.outcome == Outcome::Converged {
+        return search;
+    }
+    by_moving(problem, settings, workspace, report)
+}
+
+/// Lets the rod move to where it rests. A scheme without an energy starts from where one with an energy does.
+fn by_moving(
+    problem: &Problem,
+    settings: &Settings,
+    workspace: &mut Workspace,
+    report: &mut SolveReport,
+) -> Search {
+    if has_energy(problem, settings) {
+        return equilibrium::from_rest(problem, settings, workspace, report);
+    }
+    let twin = Problem { rod: problem.rod.clone().of_second_order(), ..problem.clone() };
+    let rests = equilibrium::from_rest(&twin, settings, workspace, report);
+    if settings.scheme == Scheme::Element {
+        return equilibrium::nearest(problem, settings, workspace, report);
+    }
+    report.method = Method::Shooting;
+    let state = EndState::from_guess(problem, &rests.guess(&twin));
+    shoot(problem, settings, state, None, workspace, report)
+}
+
+/// Walks from rest; where the end's place is prescribed, tries the sides to buckle to until the equilibrium found is stable.
+fn by_shooting(
+    problem: &Problem,
+    settings: &Settings,
+    workspace: &mut Workspace,
+    report: &mut SolveReport,
+) -> Search {
     if !problem.end.fixed[3..].contains(&true) {
-        return path::from_rest(problem, settings, Route::Straight, Vec3::ZERO, workspace, report);
+        return path::from_rest(problem, settings, Vec3::ZERO, workspace, report);
     }
     let mut best: Option<Search> = None;
-    let routes = [Route::Straight, Route::MoveThenTurn, Route::MoveThenTurnBack];
-    for (nudge, route) in
-        path::nudges(problem).into_iter().flat_map(|nudge| routes.map(|route| (nudge, route)))
-    {
-        let search = path::from_rest(problem, settings, route, nudge, workspace, report);
+    for nudge in path::nudges(problem) {
+        let search = path::from_rest(problem, settings, nudge, workspace, report);
         let converged = search.outcome == Outcome::Converged;
-        if converged && stability::morse_index(problem, &search.state, workspace).unwrap_or(0) == 0 {
+        if converged && stability::morse_index(problem, workspace).unwrap_or(0) == 0 {
             return search;
         }
         if best.is_none_or(|best| best.outcome != Outcome::Converged && converged) {
@@ -145,6 +230,9 @@ fn from_rest(
 
 /// Why a problem is not even tried.
 fn refused(problem: &Problem, settings: &Settings) -> Option<FailureReason> {
+    if settings.method == Method::Equilibrium && !has_energy(problem, settings) {
+        return Some(FailureReason::NoEnergy);
+    }
     if settings.method == Method::Sweep
         && let Some(what) = sweep::not_standard(problem)
     {

@@ -16,7 +16,6 @@ use super::solution::{Guess, Scheme, Settings, SolveReport};
 use super::stability::morse_index;
 use crate::load::NodalLoads;
 use crate::math::{Mat3, Pose, Quat, Vec3, Wrench};
-use core::f64::consts::PI;
 
 /// The first step of a way.
 const FIRST_STEP: f64 = 0.25;
@@ -57,58 +56,29 @@ enum Change {
     LoadsGrow(Vec3),
     /// The end moves, and the force across the rod fades.
     EndMoves(Vec3),
-    /// The end turns, the long way round.
-    EndTurnsBack,
-}
-
-/// How a held end gets to its place.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(crate) enum Route {
-    /// It moves and turns at once.
-    Straight,
-    /// It moves first, free to turn, and then turns.
-    MoveThenTurn,
-    /// The same, but it turns the long way round: to another branch, which goes on where that of the short way ends.
-    MoveThenTurnBack,
 }
 
 /// Walks from rest to the problem. `nudge` is the direction of the force across the rod.
 pub(crate) fn from_rest(
     problem: &Problem,
     settings: &Settings,
-    route: Route,
     nudge: Vec3,
     workspace: &mut Workspace,
     report: &mut SolveReport,
 ) -> Search {
     let nudge = nudge * (NUDGE * problem.rod.scale().force);
-    let mut from = rest(problem, workspace);
+    let from = rest(problem, workspace);
     if problem.end.fixed == [false; 6] && problem.end.grip.is_none() {
         return walk(problem, &from, Change::LoadsGrow(Vec3::ZERO), settings, workspace, report);
     }
     let loose = Problem { end: End::free(from.pose), ..problem.clone() };
-    let mut stages = vec![(loose, Change::LoadsGrow(nudge))];
-    if route == Route::Straight {
-        stages.push((problem.clone(), Change::EndMoves(nudge)));
-    } else {
-        let turn =
-            if route == Route::MoveThenTurn { Change::EndMoves(Vec3::ZERO) } else { Change::EndTurnsBack };
-        let mut pinned = problem.clone();
-        pinned.end.fixed[..3].fill(false);
-        stages.push((pinned, Change::EndMoves(nudge)));
-        stages.push((problem.clone(), turn));
+    let hanging = walk(&loose, &from, Change::LoadsGrow(nudge), settings, workspace, report);
+    if hanging.outcome != Outcome::Converged {
+        return hanging;
     }
-    let mut search = None;
-    for (stage, change) in &stages {
-        let reached = walk(stage, &from, *change, settings, workspace, report);
-        if reached.outcome != Outcome::Converged {
-            return reached;
-        }
-        // The next stage has other unknowns, and no use for this one's Jacobian.
-        from = Guess { inverse: None, ..reached.guess(stage) };
-        search = Some(reached);
-    }
-    search.unwrap_or_else(|| unreachable!("there are two stages or three"))
+    // The held end has other unknowns, and no use for the free one's Jacobian.
+    let from = Guess { inverse: None, ..hanging.guess(&loose) };
+    walk(problem, &from, Change::EndMoves(nudge), settings, workspace, report)
 }
 
 /// Walks from a solution of a problem that differs in where its end is held.
@@ -138,7 +108,7 @@ fn walk(
     let (mut at, mut step) = (0.0, FIRST_STEP);
     let smallest = 0.5_f64.powi(i32::try_from(settings.max_halvings).unwrap_or(i32::MAX)) * FIRST_STEP;
     let mut reached = search.state;
-    let mut index = morse_index(&family, &reached, workspace);
+    let mut index = morse_index(&family, workspace);
     let mut shape = sampled(workspace);
     let most = report.path_steps + MOST_STEPS;
     while search.outcome == Outcome::Converged && at < 1.0 {
@@ -150,7 +120,7 @@ fn walk(
         report.path_steps += 1;
         if tried.outcome == Outcome::Converged {
             // A step that lost stability has landed on another branch, or passed a place where the rod would snap.
-            let now = morse_index(&family, &tried.state, workspace);
+            let now = morse_index(&family, workspace);
             let frames = sampled(workspace);
             if now > index.max(Some(0)) || largest_turn(&shape, &frames) > LARGEST_TURN_OF_A_STEP {
                 tried.outcome = Outcome::Stalled;
@@ -189,10 +159,7 @@ fn set(family: &mut Problem, problem: &Problem, from: &Guess, change: Change, at
         if at >= 1.0 {
             return *target;
         }
-        let mut turn = from.pose.between(target).log().angular;
-        if matches!(change, Change::EndTurnsBack) && turn != Vec3::ZERO {
-            turn = turn * (1.0 - 2.0 * PI / turn.norm());
-        }
+        let turn = from.pose.between(target).log().angular;
         Pose {
             rotation: from.pose.rotation * Quat::from_rotation_vector(turn * at).to_matrix(),
             position: from.pose.position + (target.position - from.pose.position) * at,
@@ -205,7 +172,6 @@ fn set(family: &mut Problem, problem: &Problem, from: &Guess, change: Change, at
     let (share, nudge) = match change {
         Change::LoadsGrow(nudge) => (at, nudge * at),
         Change::EndMoves(nudge) => (1.0, nudge * (1.0 - at)),
-        Change::EndTurnsBack => (1.0, Vec3::ZERO),
     };
     let nudge = nudge * (1.0 / problem.rod.elements() as f64);
     for (now, whole) in family.loads.world.iter_mut().zip(&problem.loads.world) {

@@ -56,6 +56,11 @@ pub struct Problem {
 }
 
 impl Problem {
+    /// The nodes that are held or gripped, in order, and how.
+    pub(crate) fn holds(&self) -> impl Iterator<Item = (usize, &End)> {
+        [(0, &self.start), (self.rod.elements(), &self.end)].into_iter()
+    }
+
     /// A rod clamped at its base frame, its other end free, nothing acting on it.
     pub fn cantilever(rod: Rod) -> Self {
         let loads = NodalLoads::none(&rod);

@@ -5,6 +5,7 @@
 
 use super::boundary::{EndState, residual, residual_slope, unknown_scale};
 use super::march::{Record, Section, march, march_lanes};
+use super::nodal::Nodal;
 use super::problem::Problem;
 use super::solution::{Guess, Jacobian, Scheme, Settings, SolveReport};
 use super::variation::vary;
@@ -23,13 +24,19 @@ pub struct Workspace {
     /// The march of the accepted state.
     pub(crate) record: Record,
     trial: Record,
+    pub(crate) nodal: Nodal,
     /// The vector instructions that the kernels use.
     pub simd: SimdLevel,
 }
 
 impl Default for Workspace {
     fn default() -> Self {
-        Self { record: Record::default(), trial: Record::default(), simd: SimdLevel::detect() }
+        Self {
+            record: Record::default(),
+            trial: Record::default(),
+            nodal: Nodal::default(),
+            simd: SimdLevel::detect(),
+        }
     }
 }
 

@@ -14,6 +14,8 @@ pub enum Method {
     Sweep,
     /// A search for the unknown half of the frame and wrench at the end.
     Shooting,
+    /// All frames at once, moving to where the rod rests.
+    Equilibrium,
 }
 
 impl Method {
@@ -23,6 +25,7 @@ impl Method {
             Self::Auto => "auto",
             Self::Sweep => "sweep",
             Self::Shooting => "shooting",
+            Self::Equilibrium => "equilibrium",
         }
     }
 }
@@ -140,8 +143,10 @@ pub struct SolveReport {
     pub line_search_cuts: usize,
     /// Sweeps along the rod.
     pub sweeps: usize,
-    /// Jacobians.
+    /// Jacobians of shooting.
     pub jacobians: usize,
+    /// Factorisations of the nodal system.
+    pub factorisations: usize,
     /// Steps on the way from the last solution or from rest; 1 where the search converged at once.
     pub path_steps: usize,
     /// How many ways there are to lower the energy. `None` where the loads have no potential (follower
@@ -159,6 +164,7 @@ impl Default for SolveReport {
             line_search_cuts: 0,
             sweeps: 0,
             jacobians: 0,
+            factorisations: 0,
             path_steps: 0,
             morse_index: None,
         }
@@ -233,6 +239,12 @@ pub enum FailureReason {
         /// What is not as it should be.
         what: &'static str,
     },
+    /// The equilibrium solver was asked for with a scheme that derives from no energy.
+    #[error(
+        "the equilibrium solver lowers the rod's energy, and elements of order 1 and the multistep scheme derive from none; \
+         use order 2 or 4, or method = \"shooting\""
+    )]
+    NoEnergy,
     /// A number became infinite or NaN.
     #[error("the numbers overflowed at node {node}: the loads may be far too large for the rod's stiffness")]
     NotFinite {

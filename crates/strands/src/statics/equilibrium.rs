@@ -1,0 +1,472 @@
+//! Moving to rest: the rod is put between its supports somehow, and moves from there, against a drag that fades, to where it rests.
+//!
+//! A step is one linear solve of the [nodal system](super::nodal), implicit in the motion: with the drag it is a step of an overdamped
+//! rod in time, and as the drag fades a Newton step. A step along which the energy would not fall, by the signs of the pivots, is made again
+//! against more drag. So where it comes to rest is a stable equilibrium, and from near one it gets there at Newton's rate. At the outset the rod
+//! is as long as its supports are far apart; the compliance lent to it fades with its slack.
+
+use super::boundary::{EndState, meet};
+use super::march::{Record, Section, march};
+use super::nodal::{Distance, Nodal};
+use super::problem::Problem;
+use super::shooting::{Outcome, Search, Workspace};
+use super::solution::{Guess, Method, Scheme, Settings, SolveReport};
+use super::stability::NEUTRAL;
+use crate::element;
+use crate::math::{Mat3, Pose, SimdLevel, Strain, Vec3, Wrench};
+use crate::rod::Order;
+
+/// How a rod is first laid out, and how it may move from there.
+struct Plan {
+    /// By how much it is bent over its length beside its rest shape, rad.
+    bend: Vec3,
+    /// The drag at first, over `EI/L³`.
+    drag: f64,
+    /// The compliance against shifts lent to it for each unit of slack, over `L³/EI`.
+    lent: f64,
+    /// How far, in rad and half lengths, a node may move in one step.
+    stride: f64,
+    /// Steps after which another plan is tried.
+    steps: usize,
+}
+
+/// The plans, in order. The first finds all but about one in a thousand of rods held at random; which it misses is chance, so that the others
+/// differ from it in every way.
+const PLANS: [Plan; 6] = [
+    Plan { bend: Vec3::ZERO, drag: 3.0, lent: 1e-3, stride: 0.5, steps: 80 },
+    Plan { bend: Vec3::new(0.3, 0.2, 0.1), drag: 3.0, lent: 1e-4, stride: 0.5, steps: 100 },
+    Plan { bend: Vec3::new(-0.4, 0.5, 0.0), drag: 30.0, lent: 1e-3, stride: 0.25, steps: 150 },
+    Plan { bend: Vec3::new(1.0, -1.0, 0.5), drag: 3.0, lent: 3e-4, stride: 0.5, steps: 150 },
+    Plan { bend: Vec3::new(-2.0, -1.0, -0.5), drag: 100.0, lent: 1e-3, stride: 0.2, steps: 300 },
+    Plan { bend: Vec3::new(2.0, 3.0, 1.0), drag: 10.0, lent: 3e-4, stride: 0.3, steps: 300 },
+];
+/// From near an equilibrium.
+const WARM: Plan = Plan { bend: Vec3::ZERO, drag: 0.0, lent: 1e-3, stride: 0.5, steps: 100 };
+
+/// The compliance lent at most, over that for one unit of slack.
+const MOST_SLACK: f64 = 3.0;
+/// The least that is lent to an element, over `L³/EI`: were it any stiffer, round-off in its stiffness would decide the signs of the pivots.
+const LEAST_LENT: f64 = 1e-12;
+/// What a step against the energy's fall takes: this much more drag, and at least this much.
+const MORE_DRAG: f64 = 4.0;
+const SOME_DRAG: f64 = 1.0;
+/// More drag than this stops everything.
+const MOST_DRAG: f64 = 1e15;
+/// The drag that just holds an unstable rod is found to this power of a half.
+const HALVINGS_TO_THE_MODE: usize = 6;
+/// Drag below this is left away: a shift by a tenth of the length would meet less force than a hair's weight.
+const LEAST_DRAG: f64 = 1e-3;
+
+/// Searches from the rod laid out between its supports by its rest shape; where that is too taut or too heavy for the way there to be smooth,
+/// from under less load and with the supports nearer to each other, by degrees.
+pub(crate) fn from_rest(
+    problem: &Problem,
+    settings: &Settings,
+    workspace: &mut Workspace,
+    report: &mut SolveReport,
+) -> Search {
+    let mild = Mild::new(problem);
+    let outcome = if mild.is_it() {
+        let laid_out = laid_out(problem, settings, &PLANS, workspace, report);
+        if laid_out == Outcome::Converged {
+            laid_out
+        } else {
+            by_degrees(problem, &mild, settings, workspace, report)
+        }
+    } else {
+        by_degrees(problem, &mild, settings, workspace, report)
+    };
+    found(problem, outcome, workspace)
+}
+
+/// Tries the plans, one after the other.
+fn laid_out(
+    problem: &Problem,
+    settings: &Settings,
+    plans: &[Plan],
+    workspace: &mut Workspace,
+    report: &mut SolveReport,
+) -> Outcome {
+    let rod = &problem.rod;
+    let mut outcome = Outcome::Stalled;
+    for plan in plans {
+        let record = &mut workspace.record;
+        record.fit(rod.elements());
+        record.wrenches.fill(Wrench::ZERO);
+        let mut along = Vec::with_capacity(rod.elements());
+        for e in 0..rod.elements() {
+            let points = rod.points(e);
+            let bend = Strain::new(plan.bend * (1.0 / rod.length()), Vec3::ZERO);
+            let rest = core::array::from_fn(|i| points[i.min(points.len() - 1)].rest);
+            record.strains[e] = rest;
+            let bent = rest.map(|strain| strain + bend);
+            along.push(Pose::exp(element::exponent(rod.order(), rod.element_length(e), &bent)));
+        }
+        lay_out(problem, &along, rod.description().base, &mut record.poses);
+        outcome = relax(problem, settings, plan, workspace, report);
+        if outcome == Outcome::Converged {
+            break;
+        }
+    }
+    outcome
+}
+
+/// A milder problem, from which to get to a hard one by degrees.
+struct Mild {
+    /// The part of the loads that acts.
+    load: f64,
+    /// How much longer the rod is than its ends are apart, over its length; and how much in the hard problem, where that is less.
+    spare: f64,
+    hard_spare: f64,
+}
+
+/// Loads beyond this, over `EI/L²`, are hard.
+const HARD_LOAD: f64 = 100.0;
+/// Less length to spare than this part of the length is hard.
+const HARD_SPARE: f64 = 0.05;
+
+impl Mild {
+    fn new(problem: &Problem) -> Self {
+        let load = (HARD_LOAD / load_size(problem)).min(1.0);
+        let held = |end: &super::End| end.fixed[3..] == [true; 3];
+        let apart = (problem.end.pose.position - problem.start.pose.position).norm() / problem.rod.length();
+        let hard_spare = if held(&problem.start) && held(&problem.end) { 1.0 - apart } else { 1.0 };
+        Self { load, spare: hard_spare.max(2.0 * HARD_SPARE), hard_spare }
+    }
+
+    /// Whether the problem itself is mild.
+    fn is_it(&self) -> bool {
+        self.load >= 1.0 && self.hard_spare >= HARD_SPARE
+    }
+
+    /// The problem at a place on the way from the mild to the hard one. Both loads and what there is to spare change by equal factors in equal steps.
+    fn set(&self, problem: &Problem, at: f64, family: &mut Problem) {
+        let load = self.load.powf(1.0 - at);
+        let scale = |now: &mut [Wrench], whole: &[Wrench]| {
+            now.iter_mut().zip(whole).for_each(|(now, whole)| *now = *whole * load);
+        };
+        scale(&mut family.loads.world, &problem.loads.world);
+        scale(&mut family.loads.body, &problem.loads.body);
+        let least = 1e-9;
+        let spare = if at >= 1.0 || self.spare <= self.hard_spare {
+            self.hard_spare
+        } else if self.hard_spare > least {
+            self.spare.powf(1.0 - at) * self.hard_spare.powf(at)
+        } else {
+            self.spare + (self.hard_spare - self.spare) * at
+        };
+        let (start, end) = (problem.start.pose.position, problem.end.pose.position);
+        if self.spare > self.hard_spare {
+            family.end.pose.position = start + (end - start) * ((1.0 - spare) / (1.0 - self.hard_spare));
+        }
+        if at >= 1.0 {
+            family.end.pose = problem.end.pose;
+        }
+    }
+}
+
+/// Walks from the milder problem to the hard one, each step from the state that the one before has left.
+fn by_degrees(
+    problem: &Problem,
+    mild: &Mild,
+    settings: &Settings,
+    workspace: &mut Workspace,
+    report: &mut SolveReport,
+) -> Outcome {
+    let mut family = problem.clone();
+    mild.set(problem, 0.0, &mut family);
+    let mut outcome = laid_out(&family, settings, &PLANS, workspace, report);
+    let (mut at, mut step) = (0.0, 0.25);
+    let mut reached = workspace.record.clone();
+    while outcome == Outcome::Converged && at < 1.0 {
+        let next = f64::min(at + step, 1.0);
+        mild.set(problem, next, &mut family);
+        report.path_steps += 1;
+        outcome = from_state(&family, settings, workspace, report);
+        if outcome == Outcome::Converged {
+            (at, step) = (next, 1.5 * step);
+            reached.clone_from(&workspace.record);
+        } else if step > 1e-3 {
+            step *= 0.4;
+            workspace.record.clone_from(&reached);
+            outcome = Outcome::Converged;
+        }
+    }
+    outcome
+}
+
+/// Searches from a solution, with the supports where they are now: from the state in the workspace where that is it, and elsewhere from what a
+/// march from its end makes of it.
+pub(crate) fn from_guess(
+    problem: &Problem,
+    settings: &Settings,
+    guess: &Guess,
+    workspace: &mut Workspace,
+    report: &mut SolveReport,
+) -> Search {
+    if !holds_state_of(guess, problem, &workspace.record) {
+        let end = Section { pose: guess.pose, wrench: guess.wrench };
+        march(workspace.simd, &problem.rod, Scheme::Element, &problem.loads, end, &mut workspace.record);
+        report.sweeps += 1;
+    }
+    let outcome = from_state(problem, settings, workspace, report);
+    found(problem, outcome, workspace)
+}
+
+/// Moves on from the state in the workspace, put between the supports where they are now.
+fn from_state(
+    problem: &Problem,
+    settings: &Settings,
+    workspace: &mut Workspace,
+    report: &mut SolveReport,
+) -> Outcome {
+    let poses = &mut workspace.record.poses;
+    let along: Vec<Pose> = poses.windows(2).map(|pair| pair[0].between(&pair[1])).collect();
+    let base = poses[0];
+    lay_out(problem, &along, base, poses);
+    relax(problem, settings, &WARM, workspace, report)
+}
+
+/// Searches by Newton's method alone for the equilibrium nearest to the state in the workspace, stable or not.
+pub(crate) fn nearest(
+    problem: &Problem,
+    settings: &Settings,
+    workspace: &mut Workspace,
+    report: &mut SolveReport,
+) -> Search {
+    let Workspace { record, nodal, simd, .. } = &mut *workspace;
+    let mut outcome = Outcome::Stalled;
+    let lend = WARM.lent / (1.0 + load_size(problem));
+    let mut lent = lend * MOST_SLACK;
+    for _ in 0..settings.max_iterations {
+        if note(nodal.linearise(problem, *simd, lent, record), report).is_none() {
+            outcome = Outcome::NotFinite;
+            break;
+        }
+        if report.residual <= settings.tolerance {
+            give_strains(problem, record);
+            outcome = Outcome::Converged;
+            break;
+        }
+        lent = (lend * report.residual.min(MOST_SLACK)).max(least_lent(problem));
+        report.factorisations += 1;
+        if nodal.solve(problem, *simd, 0.0, record).is_none() {
+            outcome = Outcome::Singular;
+            break;
+        }
+        report.iterations += 1;
+        nodal.take(problem, (WARM.stride / nodal.step_size()).min(1.0), record);
+    }
+    found(problem, outcome, workspace)
+}
+
+/// Puts a residual on record; `None` where it is not finite.
+fn note(distance: Option<Distance>, report: &mut SolveReport) -> Option<Distance> {
+    report.residual = distance.map_or(f64::NAN, |distance| distance.residual());
+    report.residual_history.push(report.residual);
+    distance.filter(|_| report.residual.is_finite())
+}
+
+/// Whether a record is of the solution that a guess comes from.
+fn holds_state_of(guess: &Guess, problem: &Problem, record: &Record) -> bool {
+    let n = problem.rod.elements();
+    if record.wrenches.len() != n {
+        return false;
+    }
+    let scale = problem.rod.scale();
+    let (pose, wrench) = (guess.pose.between(&record.poses[n]), guess.wrench - record.wrenches[n - 1]);
+    let apart = (pose.rotation - Mat3::IDENTITY).max_abs()
+        + pose.position.max_abs() / scale.length
+        + wrench.angular.max_abs() / scale.moment
+        + wrench.linear.max_abs() / scale.force;
+    apart < 1e-6 * (1.0 + guess.wrench.linear.max_abs() / scale.force)
+}
+
+/// Lays a chain of frames, each given in the one before, between the supports: the best held of these is met by moving the whole, and
+/// what the others miss is spread evenly over the rod between.
+fn lay_out(problem: &Problem, along: &[Pose], base: Pose, poses: &mut [Pose]) {
+    let fixed = |(_, end): &(usize, &super::End)| end.fixed.iter().filter(|fixed| **fixed).count();
+    let anchor = problem.holds().fold(None, |best, hold| match best {
+        Some(best) if fixed(&best) >= fixed(&hold) => Some(best),
+        _ => Some(hold),
+    });
+    poses[0] = base;
+    for (e, relative) in along.iter().enumerate() {
+        poses[e + 1] = poses[e].compose(relative);
+    }
+    let Some((anchor, end)) = anchor else { return };
+    let moved = meet(end, &poses[anchor]).compose(&poses[anchor].inverse());
+    poses.iter_mut().for_each(|pose| *pose = moved.compose(pose));
+    let nodes = problem.rod.mesh().nodes();
+    let held = |end: &super::End| end.fixed.contains(&true);
+    let mut spread = |from: usize, to: usize, end: &super::End| {
+        // The rod beyond goes along.
+        let miss = poses[to].between(&meet(end, &poses[to])).log();
+        let before = poses[to];
+        let (low, high) = (from.min(to), from.max(to));
+        for i in low..=high {
+            let part = ((nodes[i] - nodes[from]) / (nodes[to] - nodes[from])).abs();
+            poses[i] = poses[i].compose(&Pose::exp(miss * part));
+        }
+        let moved = poses[to].compose(&before.inverse());
+        let beyond = if to > from { to + 1..poses.len() } else { 0..to };
+        poses[beyond].iter_mut().for_each(|pose| *pose = moved.compose(pose));
+    };
+    let mut last = anchor;
+    for (node, end) in problem.holds().filter(|(node, end)| *node > anchor && held(end)) {
+        spread(last, node, end);
+        last = node;
+    }
+    last = anchor;
+    let before: Vec<_> = problem.holds().filter(|(node, end)| *node < anchor && held(end)).collect();
+    for (node, end) in before.into_iter().rev() {
+        spread(last, node, end);
+        last = node;
+    }
+}
+
+/// Moves the rod from the state in the workspace to rest.
+fn relax(
+    problem: &Problem,
+    settings: &Settings,
+    plan: &Plan,
+    workspace: &mut Workspace,
+    report: &mut SolveReport,
+) -> Outcome {
+    report.method = Method::Equilibrium;
+    let Workspace { record, nodal, simd, .. } = workspace;
+    let simd: SimdLevel = *simd;
+    // Where the loads are larger than what bends the rod, forces are of their size.
+    let carried = record.wrenches.iter().fold(0.0, |max: f64, w| max.max(w.linear.norm()));
+    let strength = 1.0 + load_size(problem) + carried / problem.rod.scale().force;
+    let lend = plan.lent / strength;
+    let (mut drag, mut lent) = (plan.drag * strength, lend * MOST_SLACK);
+    let mut last = f64::INFINITY;
+    for _ in 0..plan.steps {
+        if note(nodal.linearise(problem, simd, lent, record), report).is_none() {
+            return Outcome::NotFinite;
+        }
+        let residual = report.residual;
+        if residual <= settings.tolerance {
+            // One Newton step more costs little and takes what is left down to round-off. It is against hardly any drag, and so shows whether
+            // the rod rests only because nothing pushes it off a ridge.
+            let stable = nodal.solve(problem, simd, NEUTRAL, record);
+            report.factorisations += 1;
+            if stable.is_none_or(|negative| negative == 0) {
+                if stable.is_some() && nodal.step_size() <= plan.stride {
+                    nodal.take(problem, 1.0, record);
+                }
+                give_strains(problem, record);
+                return Outcome::Converged;
+            }
+            let Some(enough) = push_off(problem, simd, nodal, record, report) else {
+                return Outcome::Singular;
+            };
+            drag = enough;
+            nodal.take(problem, plan.stride / nodal.step_size(), record);
+            last = f64::INFINITY;
+            continue;
+        }
+        lent = (lend * residual.min(MOST_SLACK)).max(least_lent(problem));
+        loop {
+            report.factorisations += 1;
+            match nodal.solve(problem, simd, drag, record) {
+                Some(0) => break,
+                _ if drag > MOST_DRAG => return Outcome::Stalled,
+                _ => drag = (drag * MORE_DRAG).max(SOME_DRAG * strength),
+            }
+        }
+        report.iterations += 1;
+        let size = nodal.step_size();
+        if !size.is_finite() {
+            return Outcome::NotFinite;
+        }
+        nodal.take(problem, (plan.stride / size).min(1.0), record);
+        drag = if size > 2.0 * plan.stride {
+            // Hardly resisted: the time step was too long.
+            (2.0 * drag).max(0.1 * SOME_DRAG * strength)
+        } else if size > 0.5 * plan.stride {
+            0.7 * drag
+        } else {
+            0.3 * (residual / last).clamp(0.1, 1.0) * drag
+        };
+        if drag < LEAST_DRAG * strength {
+            drag = NEUTRAL;
+        }
+        last = residual;
+    }
+    Outcome::Stalled
+}
+
+/// The forces that act, together, over `EI/L²`.
+fn load_size(problem: &Problem) -> f64 {
+    let sizes = problem.loads.world.iter().chain(&problem.loads.body).map(|load| load.linear.norm());
+    sizes.sum::<f64>() / problem.rod.scale().force
+}
+
+/// The least that is lent to all elements together.
+fn least_lent(problem: &Problem) -> f64 {
+    LEAST_LENT * problem.rod.elements() as f64
+}
+
+/// Finds the way off an unstable equilibrium: the step that a small load makes against hardly more drag than holds the rod there, which is
+/// nearly along its most unstable mode. Gives that drag.
+fn push_off(
+    problem: &Problem,
+    simd: SimdLevel,
+    nodal: &mut Nodal,
+    record: &Record,
+    report: &mut SolveReport,
+) -> Option<f64> {
+    nodal.load_askew();
+    let mut holds = |drag: f64| {
+        report.factorisations += 1;
+        nodal.solve(problem, simd, drag, record) == Some(0)
+    };
+    let mut enough = SOME_DRAG;
+    while !holds(enough) {
+        enough *= MORE_DRAG;
+        if enough > MOST_DRAG {
+            return None;
+        }
+    }
+    let mut too_little = enough / MORE_DRAG;
+    for _ in 0..HALVINGS_TO_THE_MODE {
+        let between = 0.5 * (enough + too_little);
+        if holds(between) {
+            enough = between;
+        } else {
+            too_little = between;
+        }
+    }
+    holds(enough).then_some(enough)
+}
+
+/// Gives the elements the strains that belong to their wrenches, so that what is not free is as it must be to the last bit.
+fn give_strains(problem: &Problem, record: &mut Record) {
+    let rod = &problem.rod;
+    if rod.order() != Order::Second || rod.diagonal_points().is_none() {
+        // The general element's strains are those already.
+        return;
+    }
+    for (e, points) in rod.diagonal_points().into_iter().flatten().enumerate() {
+        let x = record.poses[e].between(&record.poses[e + 1]).log();
+        let strain = (points.rest + points.compliance.scale(element::mean_wrench(x, record.wrenches[e])))
+            * (1.0 / rod.element_length(e));
+        record.strains[e] = [strain; 2];
+    }
+}
+
+/// The state in the workspace as one that shooting can go on from.
+fn found(problem: &Problem, outcome: Outcome, workspace: &Workspace) -> Search {
+    let record = &workspace.record;
+    let n = problem.rod.elements();
+    let guess = Guess::new(record.poses[n], record.wrenches[n - 1]);
+    let carried = record.poses[0].between(&record.poses[1]).carry_wrench(record.wrenches[0]);
+    Search {
+        state: EndState::from_guess(problem, &guess),
+        start: Section { pose: record.poses[0], wrench: carried },
+        outcome,
+        inverse: None,
+    }
+}

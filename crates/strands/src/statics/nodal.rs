@@ -1,0 +1,591 @@
+//! Newton's method on all nodes of a rod at once.
+//!
+//! Unknown are the frames of the nodes and the wrench that each element carries; what must vanish is the imbalance of each node and the
+//! slack of each element, which is what its exponent is off by for its law to hold. Eliminating the wrenches element by element leaves a block
+//! tridiagonal system in the variations `η` of the frames. With `F` an element's resistance, `w` the wrench that it carries, `q` the change of it
+//! that takes up the slack, and `A η = ad*(η) w`, the change of what it exerts is
+//!
+//! ```text
+//! F (η_b − η_a) + q + A η_b
+//! ```
+//!
+//! on its far node, and the opposite on its near one. The pivots are those of a Newton step on the energy (the augmented Lagrangian at the wrenches
+//! as they are), so by the number of negative ones a step shows whether it leads down, and at an equilibrium whether that is stable.
+//!
+//! All is seen from fixed axes about the rod's start, in which lengths, forces and moments are numbers of order one.
+
+use super::boundary::{displacements, displacements_slope, meet};
+use super::march::Record;
+use super::problem::Problem;
+use crate::element::{self, DiagonalPoint, Resistance, diagonal_resistance};
+use crate::math::{Kernel, Lanes, Mat3, Mat6, Pose, Quat, Real, SimdLevel, Vec3, Vec6, Wrench, dispatch};
+use crate::rod::{Order, Rod};
+
+/// How many elements are linearised side by side.
+const BATCH: usize = 8;
+type Side = Vec3<Lanes<BATCH>>;
+type Row = Lanes<8>;
+
+/// The resistance of a turning node, over that of a shifted one and the length squared.
+const TURNING: f64 = 0.02;
+/// A pivot below this part of the largest entry is none.
+const SMALLEST_PIVOT: f64 = 1e-15;
+
+/// Six rows of a block: six columns and room for two more.
+type Block = [Row; 6];
+
+/// An element, linearised.
+#[derive(Clone, Copy, Debug)]
+struct Link {
+    stiffness: Block,
+    carried: Wrench,
+    pull: Wrench,
+}
+
+/// How a node is held: its free displacements, one a column, and which freedoms are fixed.
+#[derive(Clone, Debug)]
+struct Hold {
+    node: usize,
+    free: Mat6,
+    fixed: [bool; 6],
+}
+
+/// The linear system, and its solution.
+#[derive(Clone, Debug, Default)]
+pub(crate) struct Nodal {
+    links: Vec<Link>,
+    /// What acts on each node beside its elements, and how that changes with its frame, where it does.
+    loads: Vec<Wrench>,
+    load_slopes: Vec<(usize, Mat6)>,
+    holds: Vec<Hold>,
+    /// Where the nodes are.
+    places: Vec<Vec3>,
+    /// How the variation of a node follows from that of the one before it; in its seventh column what it has by itself.
+    follows: Vec<Block>,
+    steps: Vec<Vec6>,
+}
+
+/// How far a state is from equilibrium.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Distance {
+    /// The largest force (over `EI/L²`) and moment (over `EI/L`) by which a node is out of balance, over the largest wrench carried where that is
+    /// larger.
+    pub imbalance: f64,
+    /// The turn (rad) and shift (over the length) by which the slack of all elements together may displace the rod's end.
+    pub slack: f64,
+}
+
+impl Distance {
+    pub fn residual(&self) -> f64 {
+        // Not a number where either is.
+        if self.imbalance.is_nan() { f64::NAN } else { self.imbalance.max(self.slack) }
+    }
+}
+
+impl Nodal {
+    /// Linearises a rod about a state, `lent` (over `L³/EI`) lent to its compliance against shifts as long as that state has slack, and says how far
+    /// the state is from equilibrium. `None` where an element's law cannot be solved there.
+    pub fn linearise(
+        &mut self,
+        problem: &Problem,
+        level: SimdLevel,
+        lent: f64,
+        state: &mut Record,
+    ) -> Option<Distance> {
+        let axes = Axes::new(problem, state);
+        self.places.clear();
+        self.places.extend(state.poses.iter().map(|pose| axes.at(pose.position)));
+        self.links.clear();
+        let rod = &problem.rod;
+        let points = if rod.order() == Order::Second { rod.diagonal_points() } else { None };
+        let slack = match points {
+            Some(points) => {
+                let links = &mut self.links;
+                dispatch(level, Linearise { rod, points, axes: &axes, lent, state, links })
+            }
+            None => self.linearise_any(rod, &axes, lent, state)?,
+        };
+        self.load(problem, &axes, state);
+        self.holds.clear();
+        for (node, end) in problem.holds() {
+            let free = displacements(end, &axes.frame(&state.poses[node]));
+            self.holds.push(Hold { node, free, fixed: end.fixed });
+        }
+        let largest = self.links.iter().fold(1.0, |max: f64, link| max.max(link.carried.max_abs()));
+        let imbalance = (0..=rod.elements()).fold(0.0, |max: f64, i| {
+            let out = self.out_of_balance(i).max_abs();
+            if out.is_nan() { f64::NAN } else { max.max(out) }
+        });
+        Some(Distance { imbalance: imbalance / largest, slack: slack * rod.elements() as f64 })
+    }
+
+    /// Elements of any order and law, one after the other. Gives the largest slack.
+    fn linearise_any(&mut self, rod: &Rod, axes: &Axes, lent: f64, state: &mut Record) -> Option<f64> {
+        let mut largest = 0.0_f64;
+        for e in 0..rod.elements() {
+            let (near, far) = (&state.poses[e], &state.poses[e + 1]);
+            let relative = near.between(far);
+            let share = lent * rod.element_length(e) / rod.length() * axes.length / axes.force;
+            let pose = Pose { rotation: far.rotation, position: far.position - axes.origin };
+            let w = state.wrenches[e];
+            let Resistance { stiffness, pull, slack } =
+                element::resistance(rod, e, w, &relative, &pose, &mut state.strains[e], share)?;
+            largest = largest.max(axes.shift(slack).max_abs());
+            let stiffness = axes.stiffness(&Mat6 { blocks: stiffness });
+            let mut rows = [Row::zero(); 6];
+            for (row, numbers) in rows.iter_mut().zip(stiffness.to_rows()) {
+                row.0[..6].copy_from_slice(&numbers);
+            }
+            let carried = axes.wrench(pose.carry_wrench(w));
+            self.links.push(Link { stiffness: rows, carried, pull: axes.wrench(pull) });
+        }
+        Some(largest)
+    }
+
+    /// What acts on the nodes beside the elements.
+    fn load(&mut self, problem: &Problem, axes: &Axes, state: &Record) {
+        self.loads.clear();
+        self.load_slopes.clear();
+        for (i, pose) in state.poses.iter().enumerate() {
+            let at = self.places[i];
+            let (world, body) = (axes.wrench(problem.loads.world[i]), axes.wrench(problem.loads.body[i]));
+            let mut load = Wrench::new(world.angular + at.cross(world.linear), world.linear);
+            let mut slope = Mat6::ZERO;
+            if world.linear != Vec3::ZERO {
+                slope.blocks[0] = dead_moment_slope(at, world.linear);
+            }
+            if body != Wrench::ZERO {
+                let carried = axes.frame(pose).carry_wrench(body);
+                load += carried;
+                slope = slope.add(&element::coadjoint_by_strain(carried));
+            }
+            self.loads.push(load);
+            if slope != Mat6::ZERO {
+                self.load_slopes.push((i, slope));
+            }
+        }
+        for (node, end) in problem.holds() {
+            let Some(grip) = &end.grip else { continue };
+            let (pose, at) = (&state.poses[node], self.places[node]);
+            let wrench = axes.wrench(grip.wrench(pose));
+            self.loads[node] += Wrench::new(wrench.angular + at.cross(wrench.linear), wrench.linear);
+            let (by_turn, by_shift) = grip.stiffness(pose);
+            let by_turn = by_turn.scaled(1.0 / axes.moment) * pose.rotation.transpose();
+            let by_shift = by_shift.scaled(axes.length / axes.force);
+            let force = [(by_shift * Mat3::hat(at)).scaled(-1.0), by_shift];
+            let dead = dead_moment_slope(at, wrench.linear);
+            let arm = Mat3::hat(at);
+            let moment = [by_turn + arm * force[0] + dead[0], arm * force[1] + dead[1]];
+            self.load_slopes.push((node, Mat6 { blocks: [moment, force] }));
+        }
+        self.load_slopes.sort_by_key(|(node, _)| *node);
+    }
+
+    /// By what a node is out of balance, about itself, without what its hold takes.
+    fn out_of_balance(&self, node: usize) -> Wrench {
+        let force = self.imbalance(node);
+        match self.holds.iter().find(|hold| hold.node == node) {
+            Some(hold) => hold.free.transpose().mul_vec(force),
+            None => Wrench::new(force.angular - self.places[node].cross(force.linear), force.linear),
+        }
+    }
+
+    /// The wrench that acts on a node, in the fixed axes; at a held node the opposite of the reaction.
+    fn imbalance(&self, node: usize) -> Wrench {
+        let mut wrench = self.loads[node];
+        if let Some(link) = self.links.get(node) {
+            wrench += link.carried;
+        }
+        if node > 0 {
+            wrench -= self.links[node - 1].carried;
+        }
+        wrench
+    }
+
+    /// Solves for a step against a drag (over `EI/L³`, of all nodes together). Gives how many pivots are negative, or `None` where one
+    /// vanishes.
+    pub fn solve(&mut self, problem: &Problem, level: SimdLevel, drag: f64, state: &Record) -> Option<usize> {
+        let axes = Axes::new(problem, state);
+        let curved: Vec<Mat6> = problem
+            .holds()
+            .map(|(node, end)| {
+                let pose = axes.frame(&state.poses[node]);
+                displacements_slope(end, &pose, self.imbalance(node))
+            })
+            .collect();
+        dispatch(
+            level,
+            Eliminate { nodal: self, curved: &curved, drag: drag / problem.rod.elements() as f64 },
+        )
+    }
+
+    /// Adds to what acts a load of size one that has no symmetry, forces and moments, growing along the rod.
+    pub fn load_askew(&mut self) {
+        let n = self.loads.len() as f64;
+        for (i, (load, at)) in self.loads.iter_mut().zip(&self.places).enumerate() {
+            let size = (1.0 + i as f64 / n) / n;
+            let force = Vec3::new(0.61, 0.47, 0.53) * size;
+            load.linear += force;
+            load.angular += at.cross(force) + Vec3::new(-0.53, 0.41, 0.37) * size;
+        }
+    }
+
+    /// The largest turn (rad) and shift (over the length) of a node in the step.
+    pub fn step_size(&self) -> f64 {
+        let size = |(step, at): (&Vec6, &Vec3)| {
+            step.angular.norm().max(2.0 * (step.linear + step.angular.cross(*at)).norm())
+        };
+        self.steps
+            .iter()
+            .zip(&self.places)
+            .map(size)
+            .fold(0.0, |max: f64, size| if size.is_nan() { f64::INFINITY } else { max.max(size) })
+    }
+
+    /// Takes a part of the step.
+    pub fn take(&self, problem: &Problem, part: f64, state: &mut Record) {
+        let axes = Axes::new(problem, state);
+        for (e, link) in self.links.iter().enumerate() {
+            let apart = self.steps[e + 1] - self.steps[e];
+            let change = Wrench::from(core::array::from_fn::<f64, 6, _>(|i| {
+                (0..6).map(|k| link.stiffness[i].0[k] * apart.to_array()[k]).sum()
+            }));
+            let change = axes.frame(&state.poses[e + 1]).inverse().carry_wrench((change + link.pull) * part);
+            state.wrenches[e] += Wrench::new(change.angular * axes.moment, change.linear * axes.force);
+        }
+        for (i, pose) in state.poses.iter_mut().enumerate() {
+            let step = self.steps[i] * part;
+            let turn = Quat::from_rotation_vector(step.angular).to_matrix();
+            let shift = step.linear + step.angular.cross(self.places[i]);
+            // As along a screw, so that a whole rod that turns does not grow.
+            let x = Vec6::new(step.angular, shift);
+            let ahead = Pose::exp(x).position * axes.length;
+            *pose = Pose { rotation: turn * pose.rotation, position: pose.position + ahead };
+        }
+        for (node, end) in problem.holds() {
+            state.poses[node] = meet(end, &state.poses[node]);
+        }
+    }
+}
+
+/// How the moment about the origin of a dead force at a place changes with the frame there: by its turn and by its shift.
+fn dead_moment_slope(at: Vec3, force: Vec3) -> [Mat3; 2] {
+    let force = Mat3::hat(force);
+    [force * Mat3::hat(at), force.scaled(-1.0)]
+}
+
+/// Linearises the elements of a rod of order 2 with a diagonal law, several side by side.
+struct Linearise<'a> {
+    rod: &'a Rod,
+    points: &'a [DiagonalPoint],
+    axes: &'a Axes,
+    lent: f64,
+    state: &'a mut Record,
+    links: &'a mut Vec<Link>,
+}
+
+impl Kernel for Linearise<'_> {
+    type Output = f64;
+
+    #[inline(always)]
+    fn run(self) -> f64 {
+        let Self { rod, points, axes, lent, state, links } = self;
+        let n = rod.elements();
+        let mut largest = 0.0_f64;
+        for first in (0..n).step_by(BATCH) {
+            let [mut compliance, mut rest, mut x, mut wrench] = [Vec6::<Side>::zero(); 4];
+            let mut share = Lanes::<BATCH>::zero();
+            let mut far = Pose { rotation: Mat3 { cols: [Side::zero(); 3] }, position: Side::zero() };
+            for i in 0..BATCH {
+                // Past the last element the batch repeats it.
+                let e = (first + i).min(n - 1);
+                let point = &points[e];
+                put(&mut compliance.angular, i, point.compliance.angular * axes.moment);
+                put(&mut compliance.linear, i, point.compliance.linear * (axes.force / axes.length));
+                put(&mut rest.angular, i, point.rest.angular);
+                put(&mut rest.linear, i, point.rest.linear * (1.0 / axes.length));
+                let exponent = axes.shift(state.poses[e].between(&state.poses[e + 1]).log());
+                put(&mut x.angular, i, exponent.angular);
+                put(&mut x.linear, i, exponent.linear);
+                let carried = axes.wrench(state.wrenches[e]);
+                put(&mut wrench.angular, i, carried.angular);
+                put(&mut wrench.linear, i, carried.linear);
+                let pose = axes.frame(&state.poses[e + 1]);
+                (0..3).for_each(|k| put(&mut far.rotation.cols[k], i, pose.rotation.cols[k]));
+                put(&mut far.position, i, pose.position);
+                share.0[i] = lent * rod.element_length(e) / rod.length();
+            }
+            let Resistance { stiffness, pull, slack } =
+                diagonal_resistance(compliance, rest, share, x, wrench, &far);
+            let carried = far.carry_wrench(wrench);
+            for i in 0..BATCH.min(n - first) {
+                let mut rows = [Row::zero(); 6];
+                for r in 0..6 {
+                    for c in 0..6 {
+                        let column = &stiffness[r / 3][c / 3].cols[c % 3];
+                        rows[r].0[c] = [&column.x, &column.y, &column.z][r % 3].0[i];
+                    }
+                }
+                let size = one(&slack.angular, i).max_abs().max(one(&slack.linear, i).max_abs());
+                largest = if size.is_nan() { f64::NAN } else { largest.max(size) };
+                let pair = |v: &Vec6<Side>| Vec6::new(one(&v.angular, i), one(&v.linear, i));
+                links.push(Link { stiffness: rows, carried: pair(&carried), pull: pair(&pull) });
+            }
+        }
+        largest
+    }
+}
+
+#[inline(always)]
+fn put(side: &mut Side, i: usize, v: Vec3) {
+    (side.x.0[i], side.y.0[i], side.z.0[i]) = (v.x, v.y, v.z);
+}
+
+#[inline(always)]
+fn one(v: &Side, i: usize) -> Vec3 {
+    Vec3::new(v.x.0[i], v.y.0[i], v.z.0[i])
+}
+
+/// Eliminates the nodes from the last to the first, and puts the step back together.
+struct Eliminate<'a> {
+    nodal: &'a mut Nodal,
+    curved: &'a [Mat6],
+    drag: f64,
+}
+
+impl Kernel for Eliminate<'_> {
+    type Output = Option<usize>;
+
+    #[inline(always)]
+    fn run(self) -> Option<usize> {
+        let Self { nodal, curved, drag } = self;
+        let n = nodal.links.len();
+        nodal.follows.resize(n + 1, [Row::zero(); 6]);
+        nodal.steps.clear();
+        nodal.steps.resize(n + 1, Vec6::ZERO);
+        let mut negative = 0;
+        // What the nodes beyond add to the pivot, and in column 6 to what acts.
+        let mut beyond = [Row::zero(); 6];
+        let (mut holds, mut slopes) = (nodal.holds.len(), nodal.load_slopes.len());
+        for i in (0..=n).rev() {
+            let mut pivot = beyond;
+            add_drag(&mut pivot, nodal.places[i], drag);
+            let acting = nodal.imbalance(i);
+            for (row, force) in pivot.iter_mut().zip(acting.to_array()) {
+                row.0[6] += force;
+            }
+            let mut lower = [Row::zero(); 6];
+            if let Some(after) = nodal.links.get(i) {
+                add(&mut pivot, &after.stiffness);
+                add_column(&mut pivot, after.pull, 1.0);
+            }
+            if i > 0 {
+                let before = &nodal.links[i - 1];
+                lower = before.stiffness;
+                add(&mut pivot, &upper(before));
+                add_column(&mut pivot, before.pull, -1.0);
+            }
+            while slopes > 0 && nodal.load_slopes[slopes - 1].0 == i {
+                slopes -= 1;
+                for (row, slope) in pivot.iter_mut().zip(nodal.load_slopes[slopes].1.to_rows()) {
+                    (0..6).for_each(|k| row.0[k] -= slope[k]);
+                }
+            }
+            let held = holds > 0 && nodal.holds[holds - 1].node == i;
+            if held {
+                holds -= 1;
+                (pivot, lower) = restrict(&nodal.holds[holds], &curved[holds], &pivot, &lower);
+            }
+            let mut system: [[Row; 2]; 6] = core::array::from_fn(|r| {
+                let mut right = lower[r];
+                right.0[6] = pivot[r].0[6];
+                [pivot[r], right]
+            });
+            negative += reduce(&mut system)?;
+            let mut follow: Block = core::array::from_fn(|r| system[r][1]);
+            if held {
+                follow = expand(&nodal.holds[holds], &follow);
+            }
+            nodal.follows[i] = follow;
+            if i > 0 {
+                // −U D⁻¹ L to the pivot, and U D⁻¹ b to what acts.
+                beyond = product(&upper(&nodal.links[i - 1]), &follow);
+                for row in &mut beyond {
+                    (0..6).for_each(|k| row.0[k] = -row.0[k]);
+                }
+            }
+        }
+        let mut before = Vec6::ZERO;
+        for (follow, step) in nodal.follows.iter().zip(&mut nodal.steps) {
+            let x = before.to_array();
+            *step = Vec6::from(core::array::from_fn::<f64, 6, _>(|r| {
+                let row = &follow[r].0;
+                row[6]
+                    + ((row[0] * x[0] + row[1] * x[1]) + (row[2] * x[2] + row[3] * x[3]))
+                    + (row[4] * x[4] + row[5] * x[5])
+            }));
+            before = *step;
+        }
+        Some(negative)
+    }
+}
+
+#[inline(always)]
+fn add(to: &mut Block, block: &Block) {
+    for (row, other) in to.iter_mut().zip(block) {
+        *row += *other;
+    }
+}
+
+#[inline(always)]
+fn add_column(to: &mut Block, column: Wrench, sign: f64) {
+    for (row, value) in to.iter_mut().zip(column.to_array()) {
+        row.0[6] += sign * value;
+    }
+}
+
+/// `F + A`.
+#[inline(always)]
+fn upper(link: &Link) -> Block {
+    let mut block = link.stiffness;
+    let (m, n) = (link.carried.angular, link.carried.linear);
+    let mut minus_hat = |r: usize, c: usize, v: Vec3| {
+        block[r].0[c + 1] += v.z;
+        block[r].0[c + 2] -= v.y;
+        block[r + 1].0[c] -= v.z;
+        block[r + 1].0[c + 2] += v.x;
+        block[r + 2].0[c] += v.y;
+        block[r + 2].0[c + 1] -= v.x;
+    };
+    minus_hat(0, 0, m);
+    minus_hat(0, 3, n);
+    minus_hat(3, 0, n);
+    block
+}
+
+/// The drag on a node that turns and shifts: `|η + θ × p|² + TURNING |θ|²`.
+#[inline(always)]
+fn add_drag(pivot: &mut Block, p: Vec3, drag: f64) {
+    let arm = Mat3::hat(p);
+    let turning = Mat3::IDENTITY.scaled(TURNING) - arm * arm;
+    for r in 0..3 {
+        for c in 0..3 {
+            pivot[r].0[c] += drag * turning.cols[c][r];
+            pivot[r].0[3 + c] += drag * arm.cols[c][r];
+            pivot[3 + r].0[c] -= drag * arm.cols[c][r];
+        }
+        pivot[3 + r].0[3 + r] += drag;
+    }
+}
+
+/// Solves the six equations for seven right-hand sides, in place, without interchange: the signs of the pivots are wanted, and where all are
+/// positive it is not needed. `None` where a pivot vanishes.
+#[inline(always)]
+fn reduce(system: &mut [[Row; 2]; 6]) -> Option<usize> {
+    let size = system.iter().flat_map(|row| &row[0].0[..6]).fold(0.0, |max: f64, x| max.max(x.abs()));
+    let mut negative = 0;
+    for k in 0..6 {
+        let pivot = system[k][0].0[k];
+        if !(pivot.abs() > SMALLEST_PIVOT * size && pivot.is_finite()) {
+            return None;
+        }
+        negative += usize::from(pivot < 0.0);
+        let scale = Row::splat(1.0 / pivot);
+        let [left, right] = [system[k][0] * scale, system[k][1] * scale];
+        system[k] = [left, right];
+        for r in (0..6).filter(|r| *r != k) {
+            let factor = Row::splat(system[r][0].0[k]);
+            system[r][0] -= left * factor;
+            system[r][1] -= right * factor;
+        }
+    }
+    Some(negative)
+}
+
+/// The product of six columns of a block with a block.
+#[inline(always)]
+fn product(a: &Block, b: &Block) -> Block {
+    core::array::from_fn(|r| {
+        let term = |k: usize| b[k] * Row::splat(a[r].0[k]);
+        (term(0) + term(1)) + (term(2) + term(3)) + (term(4) + term(5))
+    })
+}
+
+fn matrix(block: &Block) -> Mat6 {
+    Mat6::from_rows(&core::array::from_fn(|r| core::array::from_fn(|c| block[r].0[c])))
+}
+
+fn column(block: &Block) -> Vec6 {
+    Vec6::from(core::array::from_fn::<f64, 6, _>(|r| block[r].0[6]))
+}
+
+fn block(matrix: &Mat6, column: Vec6) -> Block {
+    let (rows, column) = (matrix.to_rows(), column.to_array());
+    core::array::from_fn(|r| {
+        let mut row = Row::zero();
+        row.0[..6].copy_from_slice(&rows[r]);
+        row.0[6] = column[r];
+        row
+    })
+}
+
+/// A held node's equations in its free displacements; those that are fixed are zero.
+#[inline(never)]
+fn restrict(hold: &Hold, curved: &Mat6, pivot: &Block, lower: &Block) -> (Block, Block) {
+    let t = hold.free.transpose();
+    let fixed = Mat6::diagonal(Vec6::from(hold.fixed.map(f64::from)));
+    let restricted = t.mul(&matrix(pivot)).mul(&hold.free).add(curved).add(&fixed);
+    (block(&restricted, t.mul_vec(column(pivot))), block(&t.mul(&matrix(lower)), Vec6::ZERO))
+}
+
+/// From the free displacements of a held node to the variation of its frame.
+#[inline(never)]
+fn expand(hold: &Hold, follow: &Block) -> Block {
+    block(&hold.free.mul(&matrix(follow)), hold.free.mul_vec(column(follow)))
+}
+
+/// Fixed axes about the rod's start, in which lengths, forces and moments are numbers of order one.
+struct Axes {
+    origin: Vec3,
+    length: f64,
+    force: f64,
+    moment: f64,
+}
+
+impl Axes {
+    fn new(problem: &Problem, record: &Record) -> Self {
+        let scale = problem.rod.scale();
+        let origin = record.poses[0].position;
+        Self { origin, length: scale.length, force: scale.force, moment: scale.moment }
+    }
+
+    fn at(&self, position: Vec3) -> Vec3 {
+        (position - self.origin) * (1.0 / self.length)
+    }
+
+    fn frame(&self, pose: &Pose) -> Pose {
+        Pose { rotation: pose.rotation, position: self.at(pose.position) }
+    }
+
+    fn wrench(&self, wrench: Wrench) -> Wrench {
+        Wrench::new(wrench.angular * (1.0 / self.moment), wrench.linear * (1.0 / self.force))
+    }
+
+    /// A variation in the axes of a frame, its shift over the length.
+    fn shift(&self, variation: Vec6) -> Vec6 {
+        Vec6::new(variation.angular, variation.linear * (1.0 / self.length))
+    }
+
+    /// A stiffness, seen from axes of the same directions and origin.
+    fn stiffness(&self, stiffness: &Mat6) -> Mat6 {
+        let scales =
+            [[1.0 / self.moment, self.length / self.moment], [1.0 / self.force, self.length / self.force]];
+        let mut g = *stiffness;
+        for (blocks, scales) in g.blocks.iter_mut().zip(scales) {
+            for (block, scale) in blocks.iter_mut().zip(scales) {
+                *block = block.scaled(scale);
+            }
+        }
+        g
+    }
+}
