@@ -230,7 +230,7 @@ pub(crate) fn meet(end: &End, pose: &Pose) -> Pose {
 /// By a step of Newton's method for the polar decomposition, `R (3 − Rᵀ R)/2`, which moves an entry by round-off of itself. That matters where
 /// a rod is far longer than it takes to turn into its load's direction: by how little its end points off that direction decides where its
 /// start points. Along an axis of the world the matrix holds that angle however small, as an entry; a quaternion holds none below round-off.
-fn renormalised(rotation: Mat3) -> Mat3 {
+pub(crate) fn renormalised(rotation: Mat3) -> Mat3 {
     let off = Mat3::IDENTITY - rotation.transpose() * rotation;
     if rotation.is_finite() && off.max_abs() < 1e-8 {
         rotation + rotation * off.scaled(0.5)

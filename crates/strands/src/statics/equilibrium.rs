@@ -5,8 +5,8 @@
 //! against more drag. So where it comes to rest is a stable equilibrium, and from near one it gets there at Newton's rate. At the outset the rod
 //! is as long as its supports are far apart; the compliance lent to it fades with its slack.
 
-use super::boundary::{EndState, meet};
-use super::march::{Record, Section, march};
+use super::boundary::{EndState, meet, renormalised};
+use super::march::{Record, Section, march, turned};
 use super::nodal::{Distance, Nodal};
 use super::problem::Problem;
 use super::shooting::{Outcome, Search, Workspace};
@@ -244,7 +244,7 @@ pub(crate) fn nearest(
             break;
         }
         if report.residual <= settings.tolerance {
-            give_strains(problem, record);
+            finish(problem, record);
             outcome = Outcome::Converged;
             break;
         }
@@ -356,7 +356,7 @@ fn relax(
                 if stable.is_some() && nodal.step_size() <= plan.stride {
                     nodal.take(problem, 1.0, record);
                 }
-                give_strains(problem, record);
+                finish(problem, record);
                 return Outcome::Converged;
             }
             let Some(enough) = push_off(problem, simd, nodal, record, report) else {
@@ -442,16 +442,24 @@ fn push_off(
     holds(enough).then_some(enough)
 }
 
-/// Gives the elements the strains that belong to their wrenches, so that what is not free is as it must be to the last bit.
-fn give_strains(problem: &Problem, record: &mut Record) {
+/// Carries the wrench at the end through all elements, so that force and moment balance to round-off at every node, and gives the elements the
+/// strains that belong to it, so that what is not free is as it must be to the last bit.
+fn finish(problem: &Problem, record: &mut Record) {
     let rod = &problem.rod;
-    if rod.order() != Order::Second || rod.diagonal_points().is_none() {
-        // The general element's strains are those already.
+    record.poses.iter_mut().for_each(|pose| pose.rotation = renormalised(pose.rotation));
+    for e in (0..rod.elements() - 1).rev() {
+        let node = e + 1;
+        let pose = &record.poses[node];
+        let beyond = pose.between(&record.poses[node + 1]).carry_wrench(record.wrenches[node]);
+        record.wrenches[e] = beyond + problem.loads.body[node] + turned(pose, problem.loads.world[node]);
+    }
+    if rod.order() != Order::Second {
         return;
     }
-    for (e, points) in rod.diagonal_points().into_iter().flatten().enumerate() {
+    // The strains of a general element are solved for already.
+    for (e, point) in rod.diagonal_points().into_iter().flatten().enumerate() {
         let x = record.poses[e].between(&record.poses[e + 1]).log();
-        let strain = (points.rest + points.compliance.scale(element::mean_wrench(x, record.wrenches[e])))
+        let strain = (point.rest + point.compliance.scale(element::mean_wrench(x, record.wrenches[e])))
             * (1.0 / rod.element_length(e));
         record.strains[e] = [strain; 2];
     }
