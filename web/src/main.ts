@@ -292,7 +292,7 @@ async function start(): Promise<void> {
   const given = await givenScene()
   const suture = reply.scenes.find((scene) => scene.name === 'suture') ?? reply.scenes[0]
   await open(given?.text ?? suture.text, given?.name ?? `${suture.name}.toml`)
-  if (!given) showHints()
+  showHints()
 }
 
 function tick(): void {

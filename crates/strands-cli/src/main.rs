@@ -32,6 +32,19 @@ impl Failure {
     fn bad(message: impl std::fmt::Display) -> Self {
         Self::Bad(format!("error: {message}"))
     }
+
+    /// What went wrong with a file, and a mend.
+    fn file(name: impl std::fmt::Display, error: &std::io::Error) -> Self {
+        use std::io::ErrorKind;
+        Self::bad(match error.kind() {
+            ErrorKind::NotFound => format!("{name}: there is no such file or folder"),
+            ErrorKind::IsADirectory => format!("{name} is a folder; name a file in it"),
+            ErrorKind::AlreadyExists => format!("{name} is there already; choose another name, or remove it"),
+            ErrorKind::InvalidData => format!("{name} is no UTF-8 text; save it as UTF-8"),
+            ErrorKind::PermissionDenied => format!("{name}: permission denied; choose another place"),
+            _ => format!("{name}: {error}"),
+        })
+    }
 }
 
 fn main() -> ExitCode {

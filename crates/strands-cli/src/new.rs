@@ -15,7 +15,7 @@ use crate::{Failure, say, source};
 /// Where there is no such template, the name is no file's name, or the file is there already.
 pub fn run(options: &New) -> Result<(), Failure> {
     let name = options.name.strip_suffix(".toml").unwrap_or(&options.name);
-    if name.is_empty() || name.contains(['/', '\\']) {
+    if name.is_empty() || name.contains(['/', '\\']) || name.starts_with(['.', '-']) {
         return Err(Failure::bad(format!(
             "`{}` is no name for a scene: it becomes the file NAME.toml here",
             options.name
@@ -33,7 +33,7 @@ pub fn run(options: &New) -> Result<(), Failure> {
         .write(true)
         .create_new(true)
         .open(&path)
-        .map_err(|error| Failure::bad(format!("{}: {error}", path.display())))?;
+        .map_err(|error| Failure::file(path.display(), &error))?;
     file.write_all(scene.to_string().as_bytes()).map_err(Failure::bad)?;
     say(&format!(
         "{} written; `strands solve {}` solves it, `strands view {}` shows it",

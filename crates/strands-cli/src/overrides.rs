@@ -58,9 +58,16 @@ fn changes(overrides: &Overrides) -> Result<Vec<Change>, String> {
             .ok_or_else(|| format!("--set {change}: write KEY=VALUE, such as rods.thread.length=0.2"))?;
         // What is no TOML value is a word: --set solver.method=shooting needs no quotes.
         let value = value.trim().parse().unwrap_or_else(|_| Value::from(value.trim()));
-        changes.push((key.split('.').map(|part| part.trim().to_owned()).collect(), value));
+        changes.push((parts(key).map_err(|error| format!("--set {change}: {error}"))?, value));
     }
     Ok(changes)
+}
+
+/// The parts of a dotted key, quoted where they need it; places of an array as `supports.1` or, as messages have them, `supports[1]`.
+fn parts(key: &str) -> Result<Vec<String>, String> {
+    let dotted = key.replace('[', ".").replace(']', "");
+    let keys = toml_edit::Key::parse(&dotted).map_err(|error| error.message().to_owned())?;
+    Ok(keys.iter().map(|key| key.get().to_owned()).collect())
 }
 
 fn in_toml(scene: &mut DocumentMut, changes: &[Change], elements: Option<usize>) -> Result<(), String> {

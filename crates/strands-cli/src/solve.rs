@@ -55,8 +55,9 @@ pub fn run(options: &Solve) -> Result<(), Failure> {
     let outcome = solve_all(source.parse()?.model)?;
     for (path, format) in outputs {
         match format.bytes(&outcome) {
-            Some(bytes) => std::fs::write(path, bytes)
-                .map_err(|error| Failure::bad(format!("{}: {error}", path.display())))?,
+            Some(bytes) => {
+                std::fs::write(path, bytes).map_err(|error| Failure::file(path.display(), &error))?
+            }
             None => eprintln!("note: {} is not written: there is no equilibrium to show", path.display()),
         }
     }

@@ -48,7 +48,7 @@ pub fn read(argument: &str) -> Result<Source, Failure> {
         let mut text = String::new();
         std::io::stdin()
             .read_to_string(&mut text)
-            .map_err(|error| Failure::bad(format!("standard input: {error}")))?;
+            .map_err(|error| Failure::file("standard input", &error))?;
         let file_name = if text.trim_start().starts_with('{') { "stdin.json" } else { "stdin.toml" };
         return Ok(Source { text, file_name: file_name.to_owned(), folder: Some(PathBuf::from(".")) });
     }
@@ -57,7 +57,7 @@ pub fn read(argument: &str) -> Result<Source, Failure> {
     if bare && !path.exists() {
         return bundled(argument);
     }
-    let text = std::fs::read_to_string(path).map_err(|error| Failure::bad(format!("{argument}: {error}")))?;
+    let text = std::fs::read_to_string(path).map_err(|error| Failure::file(argument, &error))?;
     let folder = path.parent().map(Path::to_path_buf);
     Ok(Source { text, file_name: argument.to_owned(), folder })
 }

@@ -42,7 +42,9 @@ pub fn run(options: &View) -> Result<(), Failure> {
 fn bind(port: Option<u16>) -> Result<Server, Failure> {
     let at = |port| Server::http(SocketAddrV4::new(Ipv4Addr::LOCALHOST, port));
     match port {
-        Some(port) => at(port).map_err(|error| Failure::bad(format!("port {port}: {error}"))),
+        Some(port) => at(port).map_err(|error| {
+            Failure::bad(format!("port {port}: {error}; leave --port away for a free one, or name another"))
+        }),
         None => at(USUAL_PORT).or_else(|_| at(0)).map_err(Failure::bad),
     }
 }

@@ -1,12 +1,5 @@
 //! What the README shows is what happens.
 
-use std::f64::consts::FRAC_PI_2;
-
-use strands::load::NodalLoads;
-use strands::math::{Pose, Vec3, Vec6};
-use strands::rod::{Kinematics, Material, Order, Profile, RestShape, Rod, RodDescription, Section, Station};
-use strands::statics::{End, Problem, Settings, Workspace, solve};
-
 fn readme() -> String {
     let path = std::path::Path::new(env!("CARGO_MANIFEST_DIR")).join("../../README.md");
     std::fs::read_to_string(path).expect("README.md")
@@ -46,6 +39,14 @@ fn the_code_is_this_code() {
 #[test]
 fn the_code_runs() -> Result<(), Box<dyn std::error::Error>> {
     // The README shows from here
+    use std::f64::consts::FRAC_PI_2;
+    use strands::load::NodalLoads;
+    use strands::math::{Pose, Vec3, Vec6};
+    use strands::rod::{
+        Kinematics, Material, Order, Profile, RestShape, Rod, RodDescription, Section, Station,
+    };
+    use strands::statics::{End, Problem, Settings, Workspace, solve};
+
     let nylon = Material::from_poisson(2e9, 0.39, 1140.0)?;
     let round = Section::Circle { radius: 150e-6 };
     let rod = RodDescription {

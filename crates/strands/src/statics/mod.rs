@@ -52,11 +52,11 @@ pub fn solve(
         Outcome::Converged => return Ok(solution(problem, &search, workspace, report)),
         Outcome::Singular => FailureReason::Singular,
         Outcome::NotFinite => FailureReason::NotFinite { node: first_bad_node(workspace) },
-        Outcome::Stalled => FailureReason::NotConverged {
+        Outcome::Stalled => too_coarse(problem, workspace).unwrap_or(FailureReason::NotConverged {
             residual: report.residual,
             tolerance: settings.tolerance,
             iterations: report.iterations,
-        },
+        }),
     };
     Err(failure(problem, &search, reason, workspace, report))
 }
@@ -250,6 +250,21 @@ fn refused(problem: &Problem, settings: &Settings) -> Option<FailureReason> {
         return Some(FailureReason::OutOfReach { distance, length: reach });
     }
     None
+}
+
+/// Whether the tension in the last state bends the rod over less than its elements' length.
+fn too_coarse(problem: &Problem, workspace: &Workspace) -> Option<FailureReason> {
+    let rod = &problem.rod;
+    let longest = (0..rod.elements()).map(|e| rod.element_length(e)).fold(0.0, f64::max);
+    let tension = workspace.record.wrenches.iter().fold(0.0, |max: f64, w| max.max(w.linear.norm()));
+    let scale = rod.scale();
+    let bending_length = scale.length * (scale.force / tension).sqrt();
+    (tension.is_finite() && bending_length < longest).then(|| FailureReason::TooCoarse {
+        tension,
+        bending_length,
+        element_length: longest,
+        needed: (2.0 * scale.length / bending_length).ceil() as usize,
+    })
 }
 
 /// The state of a problem that is not tried: the guess, or the rod at rest, with its residual.

@@ -216,7 +216,7 @@ pub enum FailureReason {
     /// The search stopped short.
     #[error(
         "no equilibrium found: the residual stays at {residual:.3e} (tolerance {tolerance:.1e}) after {iterations} iterations; \
-         start nearer to the solution, use more elements, or relax the tolerance"
+         use more elements, less load, or a support nearer to where the rod would be without it"
     )]
     NotConverged {
         /// The smallest residual reached.
@@ -225,6 +225,21 @@ pub enum FailureReason {
         tolerance: f64,
         /// Iterations made.
         iterations: usize,
+    },
+    /// The rod is so taut that it bends over less than an element.
+    #[error(
+        "no equilibrium found: under the tension that it came to, {tension:.3e} N, the rod bends over {bending_length:.3e} m, and its \
+         elements are up to {element_length:.3e} m long; use {needed} elements or more, or pull less"
+    )]
+    TooCoarse {
+        /// The largest internal force, N.
+        tension: f64,
+        /// `√(EI/T)`, m.
+        bending_length: f64,
+        /// The longest element, m.
+        element_length: f64,
+        /// As many elements as have half that bending length.
+        needed: usize,
     },
     /// The supports leave the rod free to move as a whole, or the problem is singular there.
     #[error(
