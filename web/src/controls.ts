@@ -10,17 +10,23 @@ function row(parent: HTMLElement, label: string, unit: string, help: string, con
   return line
 }
 
-export function numberInput(parent: HTMLElement, id: string, label: string, unit: string, help: string, change: (value: number) => void): HTMLInputElement {
+/** A field for a number. `empty` is the number that an empty field stands for; without one it must not be empty. */
+export function numberInput(
+  parent: HTMLElement, id: string, label: string, unit: string, help: string, change: (value: number) => void, empty?: number,
+): HTMLInputElement {
   const input = Object.assign(document.createElement('input'), { id, type: 'number', step: 'any', autocomplete: 'off' })
   const line = row(parent, label, unit, help, input)
   input.addEventListener('input', () => (input.dataset.typing = 'yes'))
   input.addEventListener('blur', () => delete input.dataset.typing)
   input.addEventListener('change', () => {
     delete input.dataset.typing
-    const good = input.value.trim() !== '' && Number.isFinite(input.valueAsNumber)
+    // What is no number at all reads back as empty too.
+    const isEmpty = input.value === '' && !input.validity.badInput
+    const value = isEmpty && empty !== undefined ? empty : input.valueAsNumber
+    const good = !Number.isNaN(value)
     line.classList.toggle('bad', !good)
     input.setAttribute('aria-invalid', String(!good))
-    if (good) change(input.valueAsNumber)
+    if (good) change(value)
   })
   return input
 }

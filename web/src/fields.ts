@@ -111,12 +111,12 @@ export const numberFields: NumberField[] = [
   },
 ]
 
-/** The coupling's numbers, in the solver's order. */
-export const couplingFields = [
+/** The coupling's numbers, in the solver's order. `empty` is what a field that holds nothing stands for. */
+export const couplingFields: { label: string; unit: string; help: string; empty?: number }[] = [
   { label: 'Stiffness', unit: 'N/m', help: 'Stiffness of the hand’s spring against shifts.' },
   { label: 'Turn stiffness', unit: 'N·m', help: 'Stiffness of the hand’s spring against turns, per radian.' },
   { label: 'Damping', unit: 'N·s/m', help: 'Damping of the hand’s spring against shifts.' },
   { label: 'Turn damping', unit: 'N·m·s', help: 'Damping of the hand’s spring against turns, per radian.' },
-  { label: 'Force limit', unit: 'N', help: 'The largest force that the device gives.' },
-  { label: 'Torque limit', unit: 'N·m', help: 'The largest torque that the device gives.' },
+  { label: 'Force limit', unit: 'N', help: 'The largest force that the device gives; empty for no limit.', empty: Infinity },
+  { label: 'Torque limit', unit: 'N·m', help: 'The largest torque that the device gives; empty for no limit.', empty: Infinity },
 ]

@@ -12,7 +12,8 @@ export interface Edits {
   /** The hand was put somewhere by numbers. */
   hand: (change: () => void) => void
   mode: (mode: HandMode) => void
-  coupling: (values: number[]) => void
+  /** One of the coupling's numbers, by its place in the solver's order. */
+  coupling: (index: number, value: number) => void
   look: (change: Partial<ViewOptions>) => void
 }
 
@@ -51,7 +52,7 @@ export class Inspector {
   }
 
   fillCoupling(values: number[]): void {
-    values.forEach((value, i) => write(this.#numbers.get(`coupling-${i}`)!, short(value)))
+    values.forEach((value, i) => write(this.#numbers.get(`coupling-${i}`)!, value === couplingFields[i].empty ? '' : short(value)))
   }
 
   /** Writes what belongs to a shape: where the hand is, and how it holds on. */
@@ -70,8 +71,8 @@ export class Inspector {
     this.#range(null)
   }
 
-  #number(parent: string, id: string, label: string, unit: string, help: string, change: (value: number) => void): void {
-    this.#numbers.set(id, numberInput(group(parent), id, label, unit, help, change))
+  #number(parent: string, id: string, label: string, unit: string, help: string, change: (value: number) => void, empty?: number): void {
+    this.#numbers.set(id, numberInput(group(parent), id, label, unit, help, change, empty))
   }
 
   #strand(): void {
@@ -103,10 +104,8 @@ export class Inspector {
         this.edits.hand(() => (this.stage.hand.angles = this.stage.hand.angles.map((angle, k) => (k === i ? value : angle))))
       })
     })
-    couplingFields.forEach(({ label, unit, help }, i) => {
-      this.#number('hand', `coupling-${i}`, label, unit, help, () => {
-        this.edits.coupling(couplingFields.map((_, k) => Number(this.#numbers.get(`coupling-${k}`)!.value)))
-      })
+    couplingFields.forEach(({ label, unit, help, empty }, i) => {
+      this.#number('hand', `coupling-${i}`, label, unit, help, (value) => this.edits.coupling(i, value), empty)
     })
   }
 

@@ -35,6 +35,7 @@ const history = new History<Moment>((undo, redo) => {
   element<HTMLButtonElement>('redo').disabled = !redo
 })
 let scene: SceneJson = {}
+let coupling: number[] = []
 let shape: Shape | null = null
 let opened = { text: '', name: '' }
 let paused = false
@@ -75,7 +76,8 @@ function receive(reply: Reply): void {
       stage.hand.set(reply.shape.hand)
       setUp(reply.shape)
       inspector.fill(scene)
-      inspector.fillCoupling(reply.coupling)
+      coupling = reply.coupling
+      inspector.fillCoupling(coupling)
       // The first solve starts from rest, and says nothing of the frames to come.
       return show(reply.shape, false)
     case 'shape':
@@ -84,6 +86,7 @@ function receive(reply: Reply): void {
         inspector.fill(scene)
         inspector.fillCoupling(reply.coupling)
       }
+      coupling = reply.coupling
       return show(reply.shape)
     case 'settled':
       return show(reply.shape, false)
@@ -148,8 +151,12 @@ async function reset(): Promise<void> {
 /** Edits are made one after the other: each starts from what the last has left. */
 let lastEdit = Promise.resolve()
 
+function inTurn(work: () => Promise<void>): void {
+  lastEdit = lastEdit.then(work)
+}
+
 function edit(change: (scene: SceneJson) => void): void {
-  lastEdit = lastEdit.then(async () => {
+  inTurn(async () => {
     const edited = structuredClone(scene)
     change(edited)
     const before = now()
@@ -191,9 +198,15 @@ async function setMode(mode: HandMode): Promise<void> {
   if (mode === 'free' || mode === 'scene') stage.frameAll()
 }
 
-async function setCoupling(values: number[]): Promise<void> {
-  remember()
-  receive(await solver.ask({ kind: 'coupling', values }))
+function setCoupling(index: number, value: number): void {
+  inTurn(async () => {
+    const before = now()
+    // The others as they are, and not as their fields round them.
+    const reply = await solver.ask({ kind: 'coupling', values: coupling.map((old, i) => (i === index ? value : old)) })
+    if (reply.kind === 'shape') history.push(before)
+    receive(reply)
+    inspector.fillCoupling(coupling)
+  })
 }
 
 function look(change: Partial<ViewOptions>): void {

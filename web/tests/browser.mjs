@@ -103,6 +103,13 @@ export async function openScene(page, name) {
   await badge(page, 'stable', 'converged')
 }
 
+/** Opens a scene from its text, as a file that is chosen. */
+export async function openText(page, name, text) {
+  await page.locator('#file').setInputFiles({ name: `${name}.toml`, mimeType: 'text/plain', buffer: Buffer.from(text) })
+  await until(page, (name) => document.getElementById('scene-name').textContent.toLowerCase() === name, name)
+  await badge(page, 'stable', 'converged')
+}
+
 /** Where the thread's end is on the page. */
 export const needle = (page) => page.evaluate(() => window.strands.stage.handlesOnPage()[0])
 

@@ -2,7 +2,7 @@
 
 import assert from 'node:assert/strict'
 import { after, before, test } from 'node:test'
-import { badge, changes, done, openScene, sharedPage, start, text, type, until, value } from './browser.mjs'
+import { badge, changes, done, openScene, openText, sharedPage, start, text, type, until, value } from './browser.mjs'
 
 let context
 const fresh = sharedPage(() => context)
@@ -87,6 +87,42 @@ test('a spring pulls up to the device’s limit and no further', async () => {
   await type(page, 'coupling-4', 0.05)
   await type(page, 'hand-z', -100)
   await until(page, () => document.getElementById('force').textContent === '50.0 mN (limit)')
+  assert.deepEqual(complaints, [])
+})
+
+const HELD = `format = 1
+name = "held"
+[rods.beam]
+length = 0.3
+elements = 40
+stiffness = { bending = [1e-4, 1e-4], torsion = 1e-4 }
+kinematics = "kirchhoff"
+supports = [{ at = "start", fix = ["position", "orientation"] }]
+[coupling.hand]
+rod = "beam"
+linear_stiffness = 2.34567
+angular_stiffness = 0.1
+`
+
+test('a limit’s empty field is no limit, both ways, and an edit leaves the other numbers as they are', async () => {
+  const { page, complaints } = await fresh()
+  await openText(page, 'held', HELD)
+  const snapshot = () => page.evaluate(() => window.strands.solver.ask({ kind: 'mode', mode: 'coupling' }).then((reply) => reply.coupling.map(String)))
+  assert.equal(await value(page, 'coupling-4'), '')
+  await type(page, 'coupling-1', 0.2)
+  await done(page)
+  assert.deepEqual(await snapshot(), ['2.34567', '0.2', '0', '0', 'Infinity', 'Infinity'])
+  await type(page, 'coupling-4', 0.5)
+  await done(page)
+  assert.deepEqual(await snapshot(), ['2.34567', '0.2', '0', '0', '0.5', 'Infinity'])
+  await type(page, 'coupling-4', '')
+  await done(page)
+  assert.deepEqual(await snapshot(), ['2.34567', '0.2', '0', '0', 'Infinity', 'Infinity'])
+  assert.notEqual(await page.locator('#coupling-4').getAttribute('aria-invalid'), 'true')
+  await type(page, 'coupling-0', '')
+  assert.equal(await page.locator('#coupling-0').getAttribute('aria-invalid'), 'true')
+  await page.locator('#undo').click()
+  await until(page, () => document.getElementById('coupling-4').value === '0.5')
   assert.deepEqual(complaints, [])
 })
 
