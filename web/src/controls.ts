@@ -52,6 +52,22 @@ export function checkbox(parent: HTMLElement, id: string, label: string, help: s
 export function write(input: HTMLInputElement, text: string): void {
   if (input.dataset.typing) return
   input.value = text
+  accept(input)
+}
+
+/** Says below a field why what was typed there does not hold. */
+export function refuse(input: HTMLInputElement, why: string): void {
+  accept(input)
+  const note = Object.assign(document.createElement('p'), { id: `${input.id}-why`, className: 'why', textContent: why })
+  note.setAttribute('role', 'alert')
+  input.closest('label')!.after(note)
+  input.setAttribute('aria-describedby', note.id)
+}
+
+function accept(input: HTMLInputElement): void {
   input.removeAttribute('aria-invalid')
   input.closest('label')?.classList.remove('bad')
+  if (!input.hasAttribute('aria-describedby')) return
+  input.removeAttribute('aria-describedby')
+  document.getElementById(`${input.id}-why`)?.remove()
 }

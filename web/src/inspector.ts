@@ -1,7 +1,7 @@
 /** The inspector: four groups of controls that read and write the scene, the hand, the solver and the view. */
 
 import { atNodes, quantities, type MapName } from './colour'
-import { checkbox, choice, numberInput, write } from './controls'
+import { checkbox, choice, numberInput, refuse, write } from './controls'
 import { couplingFields, firstRod, numberFields, type SceneJson } from './fields'
 import type { HandMode, Shape } from './protocol'
 import type { Stage, ViewOptions } from './stage'
@@ -53,6 +53,11 @@ export class Inspector {
 
   fillCoupling(values: number[]): void {
     values.forEach((value, i) => write(this.#numbers.get(`coupling-${i}`)!, value === couplingFields[i].empty ? '' : short(value)))
+  }
+
+  /** Says beside one of the coupling's numbers why it was refused. */
+  refuseCoupling(index: number, why: string): void {
+    refuse(this.#numbers.get(`coupling-${index}`)!, why)
   }
 
   /** Writes what belongs to a shape: where the hand is, and how it holds on. */

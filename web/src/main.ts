@@ -188,11 +188,16 @@ const undo = () => shape && void goBack(history.undo(now()))
 const redo = () => shape && void goBack(history.redo(now()))
 
 async function setMode(mode: HandMode): Promise<void> {
-  remember()
+  const before = now()
   solver.forget()
   const reply = await solver.ask({ kind: 'mode', mode })
+  if (reply.kind !== 'shape') {
+    receive(reply)
+    return inspector.show(shape!)
+  }
+  history.push(before)
   // A spring takes hold a little beside the thread's end.
-  if (reply.kind === 'shape') stage.hand.set(reply.shape.hand)
+  stage.hand.set(reply.shape.hand)
   receive(reply)
   // What is let go may fall out of sight.
   if (mode === 'free' || mode === 'scene') stage.frameAll()
@@ -203,9 +208,13 @@ function setCoupling(index: number, value: number): void {
     const before = now()
     // The others as they are, and not as their fields round them.
     const reply = await solver.ask({ kind: 'coupling', values: coupling.map((old, i) => (i === index ? value : old)) })
-    if (reply.kind === 'shape') history.push(before)
-    receive(reply)
+    if (reply.kind === 'shape') {
+      history.push(before)
+      receive(reply)
+    }
     inspector.fillCoupling(coupling)
+    // What was refused is not what holds.
+    if (reply.kind === 'error') inspector.refuseCoupling(index, reply.message)
   })
 }
 

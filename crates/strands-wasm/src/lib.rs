@@ -10,7 +10,6 @@ mod session;
 mod settle;
 
 use hand::HandMode;
-use numbers::{coupling_from, coupling_numbers};
 use session::State;
 use strands::math::{Pose, Quat, Vec3};
 use wasm_bindgen::prelude::*;
@@ -66,11 +65,10 @@ impl Session {
     /// leaves the end as the scene has it, `"free"` lets go.
     ///
     /// # Errors
-    /// Where the mode is none of these.
+    /// Where the mode is none of these, or the spring too soft for what has held the rod so far.
     pub fn set_mode(&mut self, mode: &str) -> Result<(), String> {
         let known = HandMode::from_name(mode).ok_or_else(|| format!("there is no hand mode `{mode}`"))?;
-        self.state.set_mode(known);
-        Ok(())
+        self.state.set_mode(known)
     }
 
     /// Moves the hand: position in m, orientation as a quaternion. A quaternion without length is ignored.
@@ -87,14 +85,25 @@ impl Session {
         [&hand.position.to_array()[..], &hand.orientation().to_wxyz()].concat()
     }
 
-    /// Sets the coupling: stiffness (N/m, N·m/rad), damping (N·s/m, N·m·s/rad), limits (N, N·m).
-    pub fn set_coupling(&mut self, kx: f64, kr: f64, dx: f64, dr: f64, max_force: f64, max_torque: f64) {
-        self.state.coupling = coupling_from([kx, kr, dx, dr, max_force, max_torque]);
+    /// Sets the coupling: stiffness (N/m, N·m/rad), damping (N·s/m, N·m·s/rad), limits (N, N·m; infinite where there is none).
+    ///
+    /// # Errors
+    /// The first number that a scene could not have either; the coupling is then as it was.
+    pub fn set_coupling(
+        &mut self,
+        kx: f64,
+        kr: f64,
+        dx: f64,
+        dr: f64,
+        max_force: f64,
+        max_torque: f64,
+    ) -> Result<(), String> {
+        self.state.set_coupling([kx, kr, dx, dr, max_force, max_torque])
     }
 
     /// The coupling as `[kx, kr, dx, dr, max_force, max_torque]`.
     pub fn coupling(&self) -> Vec<f64> {
-        coupling_numbers(&self.state.coupling).to_vec()
+        self.state.coupling().to_vec()
     }
 
     /// Solves for where the hand is now, with one search. `time_step` (s) is what has passed since the last solve, for the damper. Gives

@@ -2,21 +2,26 @@
 
 use strands::coupling::VirtualCoupling;
 use strands::math::{Mat3, Pose, Vec3};
+use strands_scene::HandFile;
 
 pub fn coupling_numbers(c: &VirtualCoupling) -> [f64; 6] {
     [c.linear_stiffness, c.angular_stiffness, c.linear_damping, c.angular_damping, c.max_force, c.max_torque]
 }
 
-pub fn coupling_from(numbers: [f64; 6]) -> VirtualCoupling {
+/// The hand of a rod as a scene has it, from the numbers of its coupling; an infinite limit is none.
+pub fn hand_from(rod: &str, numbers: [f64; 6]) -> HandFile {
     let [linear_stiffness, angular_stiffness, linear_damping, angular_damping, max_force, max_torque] =
         numbers;
-    VirtualCoupling {
+    let unless = |default: f64, value: f64| (value != default).then_some(value);
+    HandFile {
+        rod: rod.to_owned(),
+        at: None,
         linear_stiffness,
         angular_stiffness,
-        linear_damping,
-        angular_damping,
-        max_force,
-        max_torque,
+        linear_damping: unless(0.0, linear_damping),
+        angular_damping: unless(0.0, angular_damping),
+        max_force: unless(f64::INFINITY, max_force),
+        max_torque: unless(f64::INFINITY, max_torque),
     }
 }
 

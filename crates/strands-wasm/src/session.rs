@@ -6,7 +6,7 @@ use strands::statics::{End, Guess, Solution, SolveReport, Workspace, solve};
 use strands_scene::{FixName, Model, ModelRod, Place, Scene, SceneFile, SupportFile};
 
 use crate::hand::{HandMode, coupling_for, reachable};
-use crate::numbers::{coupling_from, coupling_numbers, flat, unflat, vector};
+use crate::numbers::{coupling_numbers, flat, hand_from, unflat, vector};
 use crate::settle::{Bit, Start, Way, search};
 
 pub struct State {
@@ -16,7 +16,7 @@ pub struct State {
     workspace: Workspace,
     mode: HandMode,
     pub hand: Pose,
-    pub coupling: VirtualCoupling,
+    coupling: VirtualCoupling,
     /// The hand of the last solution.
     last_hand: Pose,
     outcome: Outcome,
@@ -111,8 +111,8 @@ impl State {
         let scene = read(text, "scene.json")?;
         let wrench = Wrench::new(vector(&wrench[..3]), vector(&wrench[3..]));
         let before = (self.mode, self.hand, self.coupling);
+        self.set_coupling(coupling.try_into().unwrap_or([0.0; 6]))?;
         (self.mode, self.hand) = (mode, unflat(hand));
-        self.coupling = coupling_from(coupling.try_into().unwrap_or([0.0; 6]));
         let restored = self.put(scene, Some(Guess::new(unflat(pose), wrench)));
         if restored.is_err() {
             (self.mode, self.hand, self.coupling) = before;
@@ -121,18 +121,41 @@ impl State {
     }
 
     /// Changes how the hand holds on. A spring takes hold where it does what has held the thread so far, so that nothing moves.
-    pub fn set_mode(&mut self, mode: HandMode) {
+    ///
+    /// # Errors
+    /// Where the spring is so soft that there is no such place; the mode is then as it was.
+    pub fn set_mode(&mut self, mode: HandMode) -> Result<(), String> {
         if mode == HandMode::Coupling && self.mode != mode {
             let (held, reaction) = (tip(self.solution()), self.solution().reactions[1]);
             let by_turn = reaction.moment * (1.0 / self.coupling.angular_stiffness);
+            let by_shift = reaction.force * (1.0 / self.coupling.linear_stiffness);
+            if !(by_turn.is_finite() && by_shift.is_finite()) {
+                return Err("the hand's spring is too soft to hold the thread: make it stiffer".to_owned());
+            }
             self.hand = Pose {
                 rotation: Quat::from_rotation_vector(by_turn).to_matrix() * held.rotation,
-                position: held.position + reaction.force * (1.0 / self.coupling.linear_stiffness),
+                position: held.position + by_shift,
             };
             self.last_hand = self.hand;
         }
         self.mode = mode;
         self.way = None;
+        Ok(())
+    }
+
+    /// The coupling's stiffness, damping and limits in [the page's order](coupling_numbers).
+    pub fn coupling(&self) -> [f64; 6] {
+        coupling_numbers(&self.coupling)
+    }
+
+    /// Sets the coupling.
+    ///
+    /// # Errors
+    /// The first number that a scene could not have either; the coupling is then as it was.
+    pub fn set_coupling(&mut self, numbers: [f64; 6]) -> Result<(), String> {
+        let hand = hand_from(&self.rod().name, numbers);
+        self.coupling = hand.coupling().map_err(|error| error.to_string())?;
+        Ok(())
     }
 
     pub fn file(&self) -> &SceneFile {

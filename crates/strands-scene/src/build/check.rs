@@ -21,15 +21,17 @@ impl Document {
 
     /// A number that meets a condition.
     pub fn require(&self, path: &KeyPath, value: f64, met: bool, must: &str) -> Result<f64, SceneError> {
-        if met {
-            return Ok(value);
-        }
+        if met { Ok(value) } else { Err(self.refused(path, value, must)) }
+    }
+
+    /// The error of a number that cannot be.
+    pub fn refused(&self, path: &KeyPath, value: f64, must: &str) -> SceneError {
         let key = path.last_key().unwrap_or("the value");
         let error = self.error(path, format!("{key} {must}, but is {value}"));
-        Err(match words::example(key) {
+        match words::example(key) {
             Some(example) => error.mend(example),
             None => error,
-        })
+        }
     }
 
     /// The error of a key that is missing, at the table that lacks it.

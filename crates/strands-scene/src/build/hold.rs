@@ -6,7 +6,6 @@ use crate::error::SceneError;
 use crate::file::{FixName, HandFile, Place, RodFile, SupportFile};
 use crate::model::ModelRod;
 use crate::words;
-use strands::coupling::VirtualCoupling;
 use strands::math::{Pose, Strain, Vec3};
 use strands::rod::Rod;
 use strands::statics::End;
@@ -169,19 +168,8 @@ pub(super) fn hand(document: &Document, hand: &HandFile, rods: &mut [ModelRod]) 
             document.error(&path.key("at"), "a hand elsewhere than at the rod's end is not in this version");
         return Err(error.mend("write `at = \"end\"`"));
     }
-    let limit = |key: &str, limit: Option<f64>| match limit {
-        Some(limit) => document.positive(&path.key(key), limit),
-        None => Ok(f64::INFINITY),
-    };
-    rod.hand = Some(VirtualCoupling {
-        linear_stiffness: document.positive(&path.key("linear_stiffness"), hand.linear_stiffness)?,
-        angular_stiffness: document.positive(&path.key("angular_stiffness"), hand.angular_stiffness)?,
-        linear_damping: document
-            .not_negative(&path.key("linear_damping"), hand.linear_damping.unwrap_or(0.0))?,
-        angular_damping: document
-            .not_negative(&path.key("angular_damping"), hand.angular_damping.unwrap_or(0.0))?,
-        max_force: limit("max_force", hand.max_force)?,
-        max_torque: limit("max_torque", hand.max_torque)?,
-    });
+    let coupling =
+        hand.coupling().map_err(|bad| document.refused(&path.key(bad.key), bad.value, bad.must))?;
+    rod.hand = Some(coupling);
     Ok(())
 }

@@ -6,6 +6,8 @@ use serde::ser::Serializer;
 use serde::{Deserialize, Serialize};
 use std::borrow::Cow;
 use std::fmt;
+use strands::coupling::VirtualCoupling;
+use thiserror::Error;
 
 /// A place on a rod: `"start"`, `"end"`, or metres of rest length from the start.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -128,6 +130,46 @@ pub struct HandFile {
     /// The largest torque that the device gives, N·m. Default: no limit.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub max_torque: Option<f64>,
+}
+
+/// A number of a hand that cannot be.
+#[derive(Clone, Copy, Debug, PartialEq, Error)]
+#[error("{key} {must}, but is {value}")]
+pub struct HandError {
+    /// Its key in [`HandFile`].
+    pub key: &'static str,
+    /// Its value.
+    pub value: f64,
+    /// What it must be.
+    pub must: &'static str,
+}
+
+impl HandFile {
+    /// The coupling by which it holds the rod.
+    ///
+    /// # Errors
+    /// The first number that cannot be: a stiffness or a limit that is not greater than zero, a damping that is negative, one that is not
+    /// finite.
+    pub fn coupling(&self) -> Result<VirtualCoupling, HandError> {
+        let checked = |key, value: f64, met: bool, must| {
+            let must = if value.is_finite() { must } else { "must be a finite number" };
+            if met && value.is_finite() { Ok(value) } else { Err(HandError { key, value, must }) }
+        };
+        let positive = |key, value| checked(key, value, value > 0.0, "must be greater than zero");
+        let damping = |key, value: Option<f64>| {
+            let value = value.unwrap_or(0.0);
+            checked(key, value, value >= 0.0, "must not be negative")
+        };
+        let limit = |key, value: Option<f64>| value.map_or(Ok(f64::INFINITY), |value| positive(key, value));
+        Ok(VirtualCoupling {
+            linear_stiffness: positive("linear_stiffness", self.linear_stiffness)?,
+            angular_stiffness: positive("angular_stiffness", self.angular_stiffness)?,
+            linear_damping: damping("linear_damping", self.linear_damping)?,
+            angular_damping: damping("angular_damping", self.angular_damping)?,
+            max_force: limit("max_force", self.max_force)?,
+            max_torque: limit("max_torque", self.max_torque)?,
+        })
+    }
 }
 
 impl Serialize for Place {

@@ -7,7 +7,7 @@ mod held;
 mod rod;
 mod settings;
 
-pub use held::{CouplingFile, FixName, FrameName, HandFile, LoadFile, Place, SupportFile};
+pub use held::{CouplingFile, FixName, FrameName, HandError, HandFile, LoadFile, Place, SupportFile};
 pub use rod::{
     HelixFile, KinematicsName, RestFile, RestSample, RodFile, SectionFile, SectionsFile, ShapeName,
     StiffnessFile,

@@ -53,7 +53,7 @@ fn a_thread_that_was_let_go_comes_back_to_the_scene() {
     let mut state = suture();
     let opened = state.frames();
     for mode in [HandMode::Free, HandMode::Scene] {
-        state.set_mode(mode);
+        state.set_mode(mode).unwrap();
         assert!(state.solve(0.0), "{}", state.report());
         assert_eq!(state.solution().report.morse_index, Some(0), "{mode:?}");
     }
@@ -64,7 +64,7 @@ fn a_thread_that_was_let_go_comes_back_to_the_scene() {
 fn a_spring_takes_hold_without_moving_the_thread_and_then_pulls_it_along() {
     let mut state = suture();
     let held = state.frames();
-    state.set_mode(HandMode::Coupling);
+    state.set_mode(HandMode::Coupling).unwrap();
     assert!(state.solve(1.0 / 60.0), "{}", state.report());
     assert!(apart(&state.frames(), &held) < 1e-6);
     let start = state.hand.position;
@@ -88,11 +88,11 @@ fn apart(a: &[f64], b: &[f64]) -> f64 {
 #[test]
 fn a_spring_takes_up_a_thread_that_was_let_go() {
     let mut state = suture();
-    state.set_mode(HandMode::Free);
+    state.set_mode(HandMode::Free).unwrap();
     assert!(state.solve(0.0), "{}", state.report());
     let hanging = state.frames();
     assert!(tip(state.solution()).position.z < -0.2, "it does not hang: {}", state.report());
-    state.set_mode(HandMode::Coupling);
+    state.set_mode(HandMode::Coupling).unwrap();
     // The damper must not take the fall for a move of the hand.
     assert!(state.solve(1.0 / 60.0), "{}", state.report());
     assert!(apart(&state.frames(), &hanging) < 1e-6);
@@ -114,7 +114,7 @@ fn a_snapshot_brings_back_scene_hand_and_shape() {
 fn the_coupling_gives_no_more_than_the_device_can() {
     let ruler = strands_scene::bundled_scene("cantilever").unwrap();
     let mut state = State::open(ruler.text, "cantilever.toml").unwrap();
-    state.set_mode(HandMode::Coupling);
+    state.set_mode(HandMode::Coupling).unwrap();
     state.coupling.max_force = 0.05;
     let start = state.hand.position;
     for i in 1..=30 {
@@ -133,4 +133,39 @@ fn an_edited_scene_starts_from_the_last_shape() {
     state.replace(&text, "suture.toml").unwrap();
     assert_eq!(state.outcome.report.path_steps, 1);
     assert!(state.replace("nonsense = 1", "suture.toml").unwrap_err().contains("nonsense"));
+}
+
+#[test]
+fn a_coupling_that_no_scene_could_have_is_refused_and_the_last_good_one_stays() {
+    let mut state = suture();
+    let good = state.coupling();
+    for (i, value, must) in [
+        (0, 0.0, "linear_stiffness must be greater than zero, but is 0"),
+        (1, -1.0, "angular_stiffness must be greater than zero, but is -1"),
+        (2, -0.5, "linear_damping must not be negative, but is -0.5"),
+        (3, f64::INFINITY, "angular_damping must be a finite number, but is inf"),
+        (4, 0.0, "max_force must be greater than zero, but is 0"),
+        (5, f64::NAN, "max_torque must be a finite number, but is NaN"),
+    ] {
+        let mut numbers = good;
+        numbers[i] = value;
+        assert_eq!(state.set_coupling(numbers).unwrap_err(), must);
+        assert_eq!(state.coupling(), good);
+    }
+    let mut snapshot = state.snapshot();
+    snapshot[30] = 0.0;
+    let text = state.file().to_json();
+    assert!(state.restore(&text, HandMode::Pose, &snapshot).unwrap_err().contains("linear_stiffness"));
+    state.set_coupling([1.0, 1.0, 0.0, 0.0, f64::INFINITY, f64::INFINITY]).unwrap();
+    assert_eq!(state.coupling()[4], f64::INFINITY);
+}
+
+#[test]
+fn a_spring_too_soft_to_hold_the_thread_does_not_take_hold() {
+    let mut state = suture();
+    let hand = state.hand;
+    state.set_coupling([1e-320, 1.0, 0.0, 0.0, f64::INFINITY, f64::INFINITY]).unwrap();
+    assert!(state.set_mode(HandMode::Coupling).unwrap_err().contains("too soft"));
+    assert_eq!((state.mode, state.hand), (HandMode::Pose, hand));
+    assert!(state.solve(0.0), "{}", state.report());
 }
