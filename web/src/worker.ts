@@ -77,7 +77,8 @@ function answer(request: Request): Reply {
       const now = performance.now()
       const step = Math.min((now - lastSolve) / 1000, 0.1)
       lastSolve = now
-      return changed(timed(() => open.solve(step)), null)
+      // A coupling is written into the scene.
+      return changed(timed(() => open.solve(step)), request.kind === 'coupling' ? open.scene_json() : null)
     }
     case 'toml':
       return { kind: 'file', name: 'scene.toml', data: open.scene_toml() }

@@ -115,6 +115,12 @@ test('a limit’s empty field is no limit, both ways, and an edit leaves the oth
   await type(page, 'coupling-4', 0.5)
   await done(page)
   assert.deepEqual(await snapshot(), ['2.34567', '0.2', '0', '0', '0.5', 'Infinity'])
+  const saved = () => page.evaluate(() => window.strands.solver.ask({ kind: 'toml' }).then((reply) => reply.data))
+  assert.match(await saved(), /\[coupling\.hand\][^[]*angular_stiffness = 0\.2\s[^[]*max_force = 0\.5/)
+  // An edit of the scene does not take it back.
+  await type(page, 'length', 310)
+  await done(page)
+  assert.match(await saved(), /length = 0\.31\s[^]*max_force = 0\.5/)
   await type(page, 'coupling-4', '')
   await done(page)
   assert.deepEqual(await snapshot(), ['2.34567', '0.2', '0', '0', 'Infinity', 'Infinity'])

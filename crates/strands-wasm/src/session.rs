@@ -3,7 +3,7 @@
 use strands::coupling::{Grip, LastFrame, VirtualCoupling};
 use strands::math::{Pose, Quat, Strain, Wrench};
 use strands::statics::{End, Guess, Solution, SolveReport, Workspace, solve};
-use strands_scene::{FixName, Model, ModelRod, Place, Scene, SceneFile, SupportFile};
+use strands_scene::{CouplingFile, FixName, HandFile, Model, ModelRod, Place, Scene, SceneFile, SupportFile};
 
 use crate::hand::{HandMode, coupling_for, reachable};
 use crate::numbers::{coupling_numbers, flat, hand_from, unflat, vector};
@@ -110,8 +110,10 @@ impl State {
         };
         let scene = read(text, "scene.json")?;
         let wrench = Wrench::new(vector(&wrench[..3]), vector(&wrench[3..]));
+        // The scene may have none, where nobody has changed it.
+        let coupling = hand_from(&self.rod().name, coupling.try_into().unwrap_or([0.0; 6]));
         let before = (self.mode, self.hand, self.coupling);
-        self.set_coupling(coupling.try_into().unwrap_or([0.0; 6]))?;
+        self.coupling = checked(&coupling)?;
         (self.mode, self.hand) = (mode, unflat(hand));
         let restored = self.put(scene, Some(Guess::new(unflat(pose), wrench)));
         if restored.is_err() {
@@ -148,13 +150,15 @@ impl State {
         coupling_numbers(&self.coupling)
     }
 
-    /// Sets the coupling.
+    /// Sets the coupling, and writes it into the scene.
     ///
     /// # Errors
     /// The first number that a scene could not have either; the coupling is then as it was.
     pub fn set_coupling(&mut self, numbers: [f64; 6]) -> Result<(), String> {
         let hand = hand_from(&self.rod().name, numbers);
-        self.coupling = hand.coupling().map_err(|error| error.to_string())?;
+        self.coupling = checked(&hand)?;
+        self.scene.model.rods[self.held].hand = Some(self.coupling);
+        self.scene.file.coupling = Some(CouplingFile { hand });
         Ok(())
     }
 
@@ -162,14 +166,15 @@ impl State {
         &self.scene.file
     }
 
-    /// The scene with the held rod's end fixed where the hand has brought it.
+    /// The scene with the held rod's end fixed where the hand has brought it, however the scene has held it.
     pub fn file_with_hand(&self) -> SceneFile {
         let tip = tip(self.solution());
+        let length = self.rod().problem.rod.length();
         let mut file = self.scene.file.clone();
         if self.mode.leads()
             && let Some(rod) = file.rods.get_mut(&self.rod().name)
         {
-            rod.supports.retain(|support| support.at != Place::End);
+            rod.supports.retain(|support| !support.at.is_end(length));
             rod.supports.push(SupportFile {
                 at: Place::End,
                 fix: vec![FixName::Position, FixName::Orientation],
@@ -359,6 +364,10 @@ impl State {
         })
         .to_string()
     }
+}
+
+fn checked(hand: &HandFile) -> Result<VirtualCoupling, String> {
+    hand.coupling().map_err(|error| error.to_string())
 }
 
 fn read(text: &str, file_name: &str) -> Result<Scene, String> {

@@ -32,7 +32,7 @@ pub(super) fn ends(
         let slack = 1e-9 * rod.length();
         let held = if s <= slack {
             &mut start
-        } else if s >= rod.length() - slack {
+        } else if support.at.is_end(rod.length()) {
             &mut end
         } else {
             let error =
@@ -158,12 +158,7 @@ pub(super) fn hand(document: &Document, hand: &HandFile, rods: &mut [ModelRod]) 
         return Err(error.mend(words::choices("the rods here", &hand.rod, &names)));
     };
     let length = rod.problem.rod.length();
-    let at_end = match hand.at {
-        None | Some(Place::End) => true,
-        Some(Place::Start) => false,
-        Some(Place::At(s)) => (s - length).abs() <= 1e-9 * length,
-    };
-    if !at_end {
+    if !hand.at.unwrap_or(Place::End).is_end(length) {
         let error =
             document.error(&path.key("at"), "a hand elsewhere than at the rod's end is not in this version");
         return Err(error.mend("write `at = \"end\"`"));

@@ -132,6 +132,22 @@ pub struct HandFile {
     pub max_torque: Option<f64>,
 }
 
+impl Place {
+    /// Metres from the start of a rod of a length.
+    pub fn metres(self, length: f64) -> f64 {
+        match self {
+            Self::Start => 0.0,
+            Self::End => length,
+            Self::At(s) => s,
+        }
+    }
+
+    /// Whether this is the end of a rod of a length, however it is written.
+    pub fn is_end(self, length: f64) -> bool {
+        (self.metres(length) - length).abs() <= 1e-9 * length
+    }
+}
+
 /// A number of a hand that cannot be.
 #[derive(Clone, Copy, Debug, PartialEq, Error)]
 #[error("{key} {must}, but is {value}")]

@@ -169,3 +169,67 @@ fn a_spring_too_soft_to_hold_the_thread_does_not_take_hold() {
     assert_eq!((state.mode, state.hand), (HandMode::Pose, hand));
     assert!(state.solve(0.0), "{}", state.report());
 }
+
+/// Two rods without weight, the second of them in the hand, its end held at its length in metres.
+const TWO: &str = r#"
+format = 1
+name = "two"
+
+[rods.still]
+length = 0.2
+elements = 10
+kinematics = "kirchhoff"
+stiffness = { bending = [1e-4, 1e-4], torsion = 1e-4 }
+position = [0.1, 0.0, 0.0]
+supports = [{ at = "start", fix = ["position", "orientation"] }]
+
+[rods.held]
+length = 0.3
+elements = 20
+kinematics = "kirchhoff"
+stiffness = { bending = [1e-4, 1e-4], torsion = 1e-4 }
+supports = [
+    { at = 0, fix = ["position", "orientation"] },
+    { at = 0.3, fix = ["position", "orientation"], position = [0.05, 0.0, 0.25] },
+]
+
+[coupling.hand]
+rod = "held"
+at = 0.3
+linear_stiffness = 50.0
+angular_stiffness = 0.5
+"#;
+
+#[test]
+fn a_saved_scene_opens_where_the_hand_has_brought_it_with_the_spring_as_it_was_set() {
+    let mut state = State::open(TWO, "two.toml").unwrap();
+    assert_eq!(state.rod().name, "held");
+    state.hand.position += Vec3::new(0.01, 0.02, 0.0);
+    assert!(state.solve(0.0), "{}", state.report());
+    let numbers = [70.0, 0.7, 0.0, 0.01, 2.0, f64::INFINITY];
+    state.set_coupling(numbers).unwrap();
+    let saved = state.file_with_hand().to_toml();
+    let opened = State::open(&saved, "saved.toml").unwrap_or_else(|error| panic!("{error}\n{saved}"));
+    assert_eq!(opened.file().rods["held"].supports.len(), 2);
+    assert!((opened.hand.position - state.hand.position).norm() < 1e-12);
+    assert_eq!(opened.coupling(), numbers);
+    // An edit of the scene keeps it.
+    state.replace(&state.file().to_json(), "scene.json").unwrap();
+    assert_eq!(State::open(&state.file().to_json(), "scene.json").unwrap().coupling(), numbers);
+}
+
+#[test]
+fn a_spring_that_nobody_has_set_is_not_written() {
+    let ruler = strands_scene::bundled_scene("cantilever").unwrap();
+    let mut state = State::open(ruler.text, "cantilever.toml").unwrap();
+    let (text, snapshot) = (state.file().to_json(), state.snapshot());
+    assert!(state.file().coupling.is_none());
+    state.set_mode(HandMode::Coupling).unwrap();
+    assert!(state.file_with_hand().coupling.is_none());
+    let usual = state.coupling();
+    state.set_coupling([2.0, 2.0, 0.0, 0.0, 2.0, 2.0]).unwrap();
+    assert!(state.file_with_hand().coupling.is_some());
+    state.restore(&text, HandMode::Free, &snapshot).unwrap();
+    assert_eq!(state.coupling(), usual);
+    assert!(state.file_with_hand().coupling.is_none());
+}
