@@ -75,6 +75,14 @@ function helixField(key: string, label: string, help: string): NumberField {
   }
 }
 
+const size = (vector: number[]) => Math.hypot(...vector)
+
+/** Which way gravity points: down, where there is none. */
+function direction(gravity: number[]): number[] {
+  const length = size(gravity)
+  return length > 0 ? gravity.map((part) => part / length) : [0, 0, -1]
+}
+
 export const numberFields: NumberField[] = [
   {
     group: 'strand', id: 'length', label: 'Length', unit: 'mm', help: 'Length of the thread when nothing acts on it.', scale: 1e-3,
@@ -95,9 +103,10 @@ export const numberFields: NumberField[] = [
   helixField('radius', 'Coil radius', 'Radius of the helix that it forms when nothing acts on it.'),
   helixField('pitch', 'Coil pitch', 'Advance of that helix in one turn.'),
   {
-    group: 'strand', id: 'gravity', label: 'Gravity', unit: 'm/s²', help: 'Acceleration of gravity, downwards.', scale: 1,
-    get: (scene) => -(scene.gravity?.[2] ?? 0),
-    set: (scene, value) => (scene.gravity = [0, 0, -value]),
+    group: 'strand', id: 'gravity', label: 'Gravity', unit: 'm/s²', scale: 1,
+    help: 'Acceleration of gravity in the scene’s direction, downwards where the scene has none.',
+    get: (scene) => size(scene.gravity ?? []),
+    set: (scene, value) => (scene.gravity = direction(scene.gravity ?? []).map((part) => part * value)),
   },
   {
     group: 'solver', id: 'elements', label: 'Elements', unit: '–', help: 'How many elements the thread is cut into.', scale: 1,

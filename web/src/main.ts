@@ -39,6 +39,8 @@ let coupling: number[] = []
 let shape: Shape | null = null
 let opened = { text: '', name: '' }
 let paused = false
+/** Whether the hand has been moved while the page was paused. */
+let ahead = false
 let frames = 0
 
 function makeStage(): Stage {
@@ -53,7 +55,8 @@ function makeStage(): Stage {
 function moveHand(): void {
   if (!shape) return
   dismissHints()
-  // A paused page shows where the hand would be, and solves when it goes on.
+  // A paused page remembers where the hand would be, and solves when it goes on.
+  ahead = paused
   if (paused) return
   if (shape.report.mode === 'scene' || shape.report.mode === 'free') void solver.ask({ kind: 'mode', mode: 'pose' })
   shape.report.mode = shape.report.mode === 'coupling' ? 'coupling' : 'pose'
@@ -107,7 +110,7 @@ function show(next: Shape, solved = true): void {
   shape = next
   // A hand that does not lead is where the thread's end is; one that leads is ahead of the solver.
   const follows = next.report.mode === 'scene' || next.report.mode === 'free'
-  if (follows && !gestures.holding) stage.hand.set(next.hand)
+  if (follows && !gestures.holding && !ahead) stage.hand.set(next.hand)
   stage.show(next)
   readout.show(next, solved)
   inspector.show(next)
@@ -136,6 +139,8 @@ async function open(text: string, name: string): Promise<boolean> {
   }
   opened = { text, name }
   history.clear()
+  // Where the hand was in the other scene means nothing in this one.
+  ahead = false
   setPaused(false)
   say(null)
   readout.clear()
@@ -179,6 +184,7 @@ function remember(): void {
 async function goBack(moment: Moment | undefined): Promise<void> {
   if (!moment) return
   solver.forget()
+  ahead = false
   const reply = await solver.ask({ kind: 'restore', text: moment.scene, mode: moment.mode, numbers: moment.numbers })
   if (reply.kind === 'shape') stage.hand.set(reply.shape.hand)
   receive(reply)
@@ -196,6 +202,7 @@ async function setMode(mode: HandMode): Promise<void> {
     return inspector.show(shape!)
   }
   history.push(before)
+  ahead = false
   // A spring takes hold a little beside the thread's end.
   stage.hand.set(reply.shape.hand)
   receive(reply)
@@ -242,8 +249,8 @@ async function shareScene(): Promise<void> {
 }
 
 function setPaused(value: boolean): void {
-  if (paused && !value && shape) void solver.move(stage.hand.pose())
   paused = value
+  if (!paused && ahead) moveHand()
   element('pause').setAttribute('aria-pressed', String(value))
   element('pause').textContent = value ? 'Go on' : 'Pause'
 }

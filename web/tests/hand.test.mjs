@@ -2,7 +2,7 @@
 
 import assert from 'node:assert/strict'
 import { after, before, test } from 'node:test'
-import { badge, changes, done, hand, needle, openPage, out, sharedPage, start, text, type, until, value } from './browser.mjs'
+import { badge, changes, done, hand, needle, openPage, openScene, out, sharedPage, start, text, type, until, value } from './browser.mjs'
 
 let context
 const fresh = sharedPage(() => context)
@@ -176,6 +176,35 @@ test('keys twist, move and turn the hand, show the gizmo, pause and frame', asyn
   assert.ok((await page.evaluate(() => window.strands.stage.camera.position.length())) < far)
   assert.deepEqual(complaints, [])
 })
+
+test('a hand that is moved while the page is paused is followed when it goes on, also where it did not hold the end', async () => {
+  const { page, complaints } = await fresh()
+  for (const mode of ['scene', 'free', 'coupling']) {
+    await page.locator('#mode').selectOption(mode)
+    await badge(page, 'stable', 'unstable')
+    await done(page)
+    await page.locator('#stage').focus()
+    await page.keyboard.press(' ')
+    const before = await hand(page)
+    for (let i = 0; i < 3; i++) await page.keyboard.press('Shift+ArrowUp')
+    await done(page)
+    assert.deepEqual(await hand(page), before, mode)
+    const aim = await page.evaluate(() => (1e3 * window.strands.stage.hand.position.z).toFixed(2))
+    await page.keyboard.press(' ')
+    await until(page, (aim) => document.getElementById('hand-z').value === aim, aim)
+    assert.equal(await value(page, 'mode'), mode === 'coupling' ? 'coupling' : 'pose')
+  }
+  // Nothing of it is left for a scene that is opened meanwhile.
+  await page.keyboard.press(' ')
+  await page.keyboard.press('ArrowUp')
+  await openScene(page, 'ribbon')
+  const opened = await hand(page)
+  await done(page)
+  assert.equal(await page.locator('#pause').getAttribute('aria-pressed'), 'false')
+  assert.deepEqual(await hand(page), opened)
+  assert.deepEqual(complaints, [])
+})
+
 
 test('the gizmo moves the hand, a drag elsewhere looks around, a double-click frames', async () => {
   const { page, complaints } = await fresh()
