@@ -157,7 +157,11 @@ async function reset(): Promise<void> {
 let lastEdit = Promise.resolve()
 
 function inTurn(work: () => Promise<void>): void {
-  lastEdit = lastEdit.then(work)
+  // One that breaks off must not hold up those after it.
+  lastEdit = lastEdit.then(work).catch((error) => {
+    inspector.fill(scene)
+    say(`This change could not be made (${error}).`)
+  })
 }
 
 function edit(change: (scene: SceneJson) => void): void {

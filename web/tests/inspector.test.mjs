@@ -162,6 +162,20 @@ test('a number that no spring can have is refused beside its field, and the last
   assert.deepEqual(complaints, [])
 })
 
+test('an edit that breaks off is said, and those after it are made', async () => {
+  const { page, complaints } = await fresh()
+  // A field of what the suture does not have: it is hidden.
+  await page.evaluate(() => {
+    const field = document.getElementById('helix-radius')
+    field.value = '3'
+    field.dispatchEvent(new Event('change'))
+  })
+  await until(page, () => document.getElementById('message').textContent.includes('could not be made'))
+  await changes(page, 'energy', () => type(page, 'radius', 0.09))
+  assert.deepEqual(complaints, [])
+})
+
+
 test('the solver’s controls hold, and a number that is refused is explained and goes back', async () => {
   const { page, complaints } = await fresh()
   await unfold(page, 'Solver')
