@@ -162,6 +162,24 @@ test('a number that no spring can have is refused beside its field, and the last
   assert.deepEqual(complaints, [])
 })
 
+test('gravity keeps its direction, and points down where there was none', async () => {
+  const { page, complaints } = await fresh()
+  const beam = HELD.replace('name = "held"', 'name = "held"\ngravity = [3.0, 0.0, -4.0]').replace('kinematics', 'mass_per_length = 1e-3\nkinematics')
+  await openText(page, 'held', beam)
+  assert.equal(await value(page, 'gravity'), '5')
+  const gravity = async (number) => {
+    await type(page, 'gravity', number)
+    await done(page)
+    const toml = await page.evaluate(() => window.strands.solver.ask({ kind: 'toml' }).then((reply) => reply.data))
+    return toml.match(/gravity = \[([^\]]*)\]/)[1].split(',').map(Number).slice(0, 3)
+  }
+  assert.deepEqual((await gravity(10)).map((part) => part.toFixed(9)), ['6.000000000', '0.000000000', '-8.000000000'])
+  assert.deepEqual((await gravity(0)).map(Math.abs), [0, 0, 0])
+  assert.deepEqual(await gravity(2), [0, 0, -2])
+  assert.deepEqual(complaints, [])
+})
+
+
 test('an edit that breaks off is said, and those after it are made', async () => {
   const { page, complaints } = await fresh()
   // A field of what the suture does not have: it is hidden.
