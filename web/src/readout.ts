@@ -16,12 +16,12 @@ export interface Verdict {
 
 /** What a report comes to. */
 export function judge(report: Report): Verdict {
-  if (report.beyond > 0) {
-    return { kind: 'away', badge: `out of reach by ${(1e3 * report.beyond).toFixed(1)} mm`, advice: null }
-  }
   if (report.status === 'failed') {
     const advice = 'No equilibrium was found here, and the last good shape stays. Bring the hand back a little, or turn it another way.'
     return { kind: 'failed', badge: 'failed', advice }
+  }
+  if (report.beyond > 0) {
+    return { kind: 'away', badge: `out of reach by ${(1e3 * report.beyond).toFixed(1)} mm`, advice: null }
   }
   if (report.morse_index === null) return { kind: 'converged', badge: 'converged', advice: null }
   if (report.morse_index === 0) return { kind: 'stable', badge: 'stable', advice: null }

@@ -140,6 +140,19 @@ test('out of reach the hand goes on, a line shows the gap, and the badge says ho
   assert.deepEqual(complaints, [])
 })
 
+test('where no equilibrium is found out of reach, the failure is what the badge says', async () => {
+  const { page } = await fresh()
+  const judged = (status) => page.evaluate(async (status) => {
+    const { solver, readout, stage } = window.strands
+    const { shape } = await solver.ask({ kind: 'hand', pose: stage.hand.pose() })
+    Object.assign(shape.report, { status, beyond: 0.2, settling: false })
+    readout.show(shape, false)
+    return document.getElementById('badge').textContent
+  }, status)
+  assert.equal(await judged('converged'), 'out of reach by 200.0 mm')
+  assert.equal(await judged('failed'), 'failed')
+})
+
 test('keys twist, move and turn the hand, show the gizmo, pause and frame', async () => {
   const { page, complaints } = await fresh()
   await page.locator('#stage').focus()
