@@ -70,7 +70,7 @@ pub(super) fn solver(document: &Document, file: &SceneFile) -> Result<Settings, 
     let table = KeyPath::of("solver");
     let default = Settings::default();
     let Some(written) = &file.solver else { return Ok(default) };
-    let SolverFile { method, order: _, tolerance, max_iterations, jacobian, scheme } = written.clone();
+    let SolverFile { method, order, tolerance, max_iterations, jacobian, scheme } = written.clone();
     if let Some(tolerance) = tolerance {
         let small = tolerance > 0.0 && tolerance < 1.0;
         document.require(&table.key("tolerance"), tolerance, small, "must lie between 0 and 1")?;
@@ -78,6 +78,11 @@ pub(super) fn solver(document: &Document, file: &SceneFile) -> Result<Settings, 
     if max_iterations == Some(0) {
         let error = document.error(&table.key("max_iterations"), "a search needs at least one iteration");
         return Err(error.mend(format!("leave it out for the default, {}", default.max_iterations)));
+    }
+    if scheme == Some(SchemeName::Multistep) && order == Some(4) {
+        let message = "the multistep scheme does not go with order 4: it takes one strain an element, and order 4 has two";
+        let error = document.error(&table.key("scheme"), message);
+        return Err(error.mend("leave `scheme` out, or write `order = 2`"));
     }
     Ok(Settings {
         method: method.map_or(default.method, |method| match method {

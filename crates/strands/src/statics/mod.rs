@@ -6,6 +6,7 @@
 
 mod boundary;
 mod equilibrium;
+mod fit;
 mod march;
 mod nodal;
 mod path;
@@ -64,7 +65,7 @@ pub fn solve(
 /// One frame of an interactive loop: searches from the last solution for the one next to it. Nothing is allocated once the workspace and the
 /// report have been used for the rod; the frames are in [`Workspace::poses`].
 ///
-/// Where the search fails the guess stays as it was, and [`solve`] can still find a way.
+/// Where the search fails the guess stays as it was, and [`solve`] can still find a way, or say why there is none.
 pub fn follow(
     problem: &Problem,
     settings: &Settings,
@@ -73,6 +74,9 @@ pub fn follow(
     report: &mut SolveReport,
 ) -> bool {
     report.restart(Method::Shooting);
+    if fit::unfit(problem, settings).is_some() {
+        return false;
+    }
     let search = if all_at_once(problem, settings, guess) {
         equilibrium::from_guess(problem, settings, guess, workspace, report)
     } else {
@@ -230,6 +234,9 @@ fn by_shooting(
 
 /// Why a problem is not even tried.
 fn refused(problem: &Problem, settings: &Settings) -> Option<FailureReason> {
+    if let Some(reason) = fit::unfit(problem, settings) {
+        return Some(reason);
+    }
     if settings.method == Method::Equilibrium && !has_energy(problem, settings) {
         return Some(FailureReason::NoEnergy);
     }

@@ -260,6 +260,14 @@ pub enum FailureReason {
          use order 2 or 4, or method = \"shooting\""
     )]
     NoEnergy,
+    /// The scheme does not go with the rod's order.
+    #[error(
+        "the multistep scheme takes one strain an element, and a rod of order {order} has two; use scheme = \"element\", or order = 2"
+    )]
+    SchemeOfOrder {
+        /// The rod's order.
+        order: usize,
+    },
     /// A number became infinite or NaN.
     #[error("the numbers overflowed at node {node}: the loads may be far too large for the rod's stiffness")]
     NotFinite {

@@ -4,6 +4,8 @@ use crate::load::{DistributedLoad, Frame, NodalLoads, PointLoad};
 use crate::math::{Pose, Quat, SimdLevel, Wrench};
 use crate::rod::{Law, Mesh, Order, Profile, RestShape, Rod, RodDescription, Stiffness};
 
+mod schemes;
+
 fn description(kinematics: Kinematics, rest: RestShape) -> RodDescription {
     let stiffness = Stiffness { bending: [0.05, 0.08], torsion: 0.04, axial: 900.0, shear: [300.0, 320.0] };
     RodDescription {
