@@ -380,8 +380,21 @@ impl<V: Vector> LocalSolver<V> for Fourth<V> {
 
 /// The multistep variant: the strains of the two neighbours, extrapolated, in place of the unknown one.
 pub(crate) struct Multistep<V> {
+    /// Elastic strains of the last two elements, times their lengths.
     elastic: [Vec6<V>; 2],
+    lengths: [f64; 2],
     known: usize,
+}
+
+/// The weights of the elastic strains of the last two elements in that of the next one, linear in `s` from middle to middle. The lengths are
+/// theirs, the last one's first; only one may be known.
+#[inline(always)]
+pub(crate) fn multistep_weights(known: usize, h: f64, lengths: [f64; 2]) -> [f64; 2] {
+    if known == 1 {
+        return [1.0, 0.0];
+    }
+    let ahead = (h + lengths[0]) / (lengths[0] + lengths[1]);
+    [1.0 + ahead, -ahead]
 }
 
 impl<V: Vector> LocalSolver<V> for Multistep<V> {
@@ -389,19 +402,22 @@ impl<V: Vector> LocalSolver<V> for Multistep<V> {
 
     #[inline(always)]
     fn new() -> Self {
-        Self { elastic: [Vec6::zero(); 2], known: 0 }
+        Self { elastic: [Vec6::zero(); 2], lengths: [1.0; 2], known: 0 }
     }
 
     #[inline(always)]
-    fn next(&mut self, points: &[DiagonalPoint], _: f64, wrench: &Wrench<V>) -> Solved<V> {
+    fn next(&mut self, points: &[DiagonalPoint], h: f64, wrench: &Wrench<V>) -> Solved<V> {
         let (compliance, rest) = (points[0].compliance.splat::<V>(), points[0].rest.splat::<V>());
-        let elastic = match self.known {
-            0 => compliance.scale(*wrench),
-            1 => self.elastic[0],
-            _ => self.elastic[0] * V::Number::splat(2.0) - self.elastic[1],
+        let elastic = if self.known == 0 {
+            compliance.scale(*wrench)
+        } else {
+            let [near, far] = multistep_weights(self.known, h, self.lengths);
+            let over = |i: usize, weight: f64| V::Number::splat(weight * h / self.lengths[i]);
+            self.elastic[0] * over(0, near) + self.elastic[1] * over(1, far)
         };
         let mean = Carried::new(&(rest + elastic), wrench).mean;
         self.elastic = [compliance.scale(mean), self.elastic[0]];
+        self.lengths = [h, self.lengths[0]];
         self.known += 1;
         let x = rest + self.elastic[0];
         Solved::at([x; 2], x, wrench)

@@ -22,7 +22,7 @@ mod diagonal;
 
 pub(crate) use diagonal::{
     DiagonalPoint, First, Fourth, LocalSolver, Multistep, Resistance, Second, Solved, diagonal_flexibility,
-    diagonal_resistance,
+    diagonal_resistance, multistep_weights,
 };
 
 use crate::math::{

@@ -219,24 +219,34 @@ fn acts(load: &Wrench) -> bool {
 fn general(rod: &Rod, scheme: Scheme, loads: &NodalLoads, end: Section, record: &mut Record) -> Section {
     let nodes = rod.mesh().nodes();
     let Section { mut pose, mut wrench } = end;
-    // Elastic strains of the last two elements.
-    let mut last = [[Strain::ZERO; 2]; 2];
+    // Elastic strains of the last two elements, and their lengths.
+    let (mut last, mut lengths) = ([[Strain::ZERO; 2]; 2], [1.0; 2]);
     record.poses[rod.elements()] = pose;
     for e in (0..rod.elements()).rev() {
         let h = nodes[e + 1] - nodes[e];
         let points = rod.points(e);
         let rest: PointStrains = core::array::from_fn(|i| points[i.min(points.len() - 1)].rest);
         let guess: PointStrains = core::array::from_fn(|i| rest[i] + last[0][i]);
+        let solve = |order: Order, driving: Wrench| {
+            element::solve_general(order, rod.kinematics(), h, points, driving, guess)
+                .unwrap_or([Vec6::from([f64::NAN; 6]); 2])
+        };
         let (order, driving) = match scheme {
             Scheme::Element => (rod.order(), wrench),
             Scheme::Multistep => {
-                let elastic = last[0][0] * 2.0 - last[1][0];
+                let known = rod.elements() - 1 - e;
+                let elastic = if known == 0 {
+                    solve(Order::First, wrench)[0] - rest[0]
+                } else {
+                    let [near, far] = element::multistep_weights(known, h, lengths);
+                    last[0][0] * near + last[1][0] * far
+                };
                 (Order::First, element::mean_wrench((rest[0] + elastic) * h, wrench))
             }
         };
-        let strain = element::solve_general(order, rod.kinematics(), h, points, driving, guess)
-            .unwrap_or([Vec6::from([f64::NAN; 6]); 2]);
+        let strain = solve(order, driving);
         last = [core::array::from_fn(|i| strain[i] - rest[i]), last[0]];
+        lengths = [h, lengths[0]];
         let relative = Pose::exp(exponent(rod.order(), h, &strain));
         (record.wrenches[e], record.strains[e]) = (wrench, strain);
         wrench = relative.carry_wrench(wrench);

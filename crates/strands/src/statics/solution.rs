@@ -37,7 +37,8 @@ pub enum Scheme {
     #[default]
     Element,
     /// With the strains of the two neighbours already known, extrapolated, in place of the unknown one: `σ = T(h ε*)ᵀ w`,
-    /// `ε* = ε̂ + 2 e₁ − e₂`. Explicit, of Adams's kind, second order on a uniform mesh (the multistep variant that the paper mentions).
+    /// `ε* = ε̂ + 2 e₁ − e₂` where the elements are of one length. Explicit, of Adams's kind, second order (the multistep variant that the
+    /// paper mentions). Not for order 4.
     Multistep,
 }
 

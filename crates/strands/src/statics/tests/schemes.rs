@@ -66,3 +66,48 @@ fn a_refused_scheme_is_not_followed_either() {
     assert!(!follow(&problem, &settings, &mut guess, &mut Workspace::default(), &mut SolveReport::default()));
     assert_eq!(guess, before);
 }
+
+/// Pieces of elements whose length changes from each to the next.
+fn uneven(pieces: usize) -> Mesh {
+    let (mut at, mut out) = (0.0, Vec::new());
+    for i in 0..pieces {
+        at += if i % 2 == 0 { 1.4 } else { 0.6 } * 0.8 / pieces as f64;
+        out.push((if i == pieces - 1 { 0.8 } else { at }, 1 + i % 3 / 2));
+    }
+    Mesh::from_pieces(&out)
+}
+
+fn on_mesh(law: Option<&Law>, mesh: Mesh, kinematics: Kinematics) -> Problem {
+    let plain = loaded(kinematics, 1, Order::Second, Frame::World);
+    let mut description = plain.rod.description().clone();
+    if let (Some(law), Profile::Given { law: own, .. }) = (law, &mut description.profile) {
+        *own = law.clone();
+    }
+    let rod = Rod::new(description, mesh, Order::Second).unwrap();
+    let load = PointLoad { at: 0.8, wrench: plain.loads.world[1], frame: Frame::World };
+    let loads = NodalLoads::none(&rod).with_point(&rod, &load).unwrap();
+    Problem { loads, ..Problem::cantilever(rod) }
+}
+
+#[test]
+fn the_multistep_scheme_is_the_same_for_a_diagonal_law_and_its_matrix() {
+    let settings = Settings { scheme: Scheme::Multistep, tolerance: 1e-13, ..Settings::default() };
+    let [(_, diagonal), ..] = laws();
+    let matrix = Law::full(diagonal.tangent(Vec6::ZERO).to_rows()).unwrap();
+    for kinematics in [Kinematics::Kirchhoff, Kinematics::Cosserat] {
+        for mesh in [Mesh::even(0.8, 12, &[]).unwrap(), uneven(16)] {
+            let tip = |law| tip(&solved(&on_mesh(law, mesh.clone(), kinematics), &settings));
+            let gap = tip(None).between(&tip(Some(&matrix))).log().max_abs();
+            assert!(gap < 1e-12, "{kinematics:?}, {} elements: {gap:e}", mesh.elements());
+        }
+    }
+}
+
+#[test]
+fn the_multistep_scheme_keeps_its_order_where_the_lengths_of_the_elements_change() {
+    let settings = Settings { scheme: Scheme::Multistep, tolerance: 1e-13, ..Settings::default() };
+    let at = |pieces| tip(&solved(&on_mesh(None, uneven(pieces), Kinematics::Cosserat), &settings));
+    let fine = at(4096);
+    let slope = slope_of(|pieces| fine.between(&at(pieces)).log().max_abs(), 128);
+    assert!((slope - 2.0).abs() < 0.1, "slope {slope:.3}");
+}
