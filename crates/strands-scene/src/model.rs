@@ -36,6 +36,16 @@ pub struct ModelRod {
     /// How the mesh is chosen.
     pub mesh: MeshChoice,
     pub(crate) loads: Loads,
+    pub(crate) end_given: GivenTargets,
+}
+
+/// Which of the end's targets the supports give. The others are those of the unloaded rod, on whichever mesh it is.
+#[derive(Clone, Copy, Debug, Default)]
+pub(crate) struct GivenTargets {
+    /// x, y and z.
+    pub position: [bool; 3],
+    /// The frame.
+    pub orientation: bool,
 }
 
 /// How a rod's mesh is chosen.
@@ -91,10 +101,27 @@ impl Model {
 impl ModelRod {
     fn refine(&self, tolerance: f64, settings: &Settings) -> Result<Problem, RefineError> {
         let Problem { rod, start, end, .. } = &self.problem;
-        let pose = |rod: Rod| self.loads.problem(rod, start.clone(), end.clone());
+        let pose = |rod: Rod| {
+            let end = self.end_given.on_mesh(end, &rod);
+            self.loads.problem(rod, start.clone(), end)
+        };
         let order: Order = rod.order();
         refine(rod.description(), order, &self.loads.breaks(), tolerance, MAX_ELEMENTS, settings, pose)
             .map(|refined| refined.problem)
+    }
+}
+
+impl GivenTargets {
+    /// An end, with the targets that are not given taken from the unloaded rod.
+    fn on_mesh(&self, end: &End, rod: &Rod) -> End {
+        let (mut end, rest) = (end.clone(), rod.rest_poses()[rod.elements()]);
+        for i in (0..3).filter(|i| !self.position[*i]) {
+            end.pose.position[i] = rest.position[i];
+        }
+        if !self.orientation {
+            end.pose.rotation = rest.rotation;
+        }
+        end
     }
 }
 

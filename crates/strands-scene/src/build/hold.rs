@@ -4,27 +4,25 @@ use super::{Context, load};
 use crate::document::{Document, KeyPath};
 use crate::error::SceneError;
 use crate::file::{FixName, HandFile, Place, RodFile, SupportFile};
-use crate::model::ModelRod;
+use crate::model::{GivenTargets, ModelRod};
 use crate::words;
-use strands::math::{Pose, Strain, Vec3};
+use strands::math::Pose;
 use strands::rod::Rod;
 use strands::statics::End;
-
-/// Steps of constant strain in which an element of the unloaded rod is laid out.
-const STEPS: usize = 4;
 
 /// The six freedoms of an end, in the order of [`End::fixed`].
 const FREEDOMS: [&str; 6] = ["the tangent", "the tangent", "the twist", "x", "y", "z"];
 
-/// The start and the end of a rod, as its supports hold them.
+/// The start and the end of a rod, as its supports hold them, and what of the end's targets they give.
 pub(super) fn ends(
     context: &Context,
     path: &KeyPath,
     file: &RodFile,
     rod: &Rod,
-) -> Result<(End, End), SceneError> {
-    let mut start = Held::free(rod.description().base);
-    let mut end = Held::free(unloaded_end(rod));
+) -> Result<(End, End, GivenTargets), SceneError> {
+    let unloaded = rod.rest_poses();
+    let mut start = Held::free(unloaded[0]);
+    let mut end = Held::free(unloaded[rod.elements()]);
     let supports = path.key("supports");
     for (i, support) in file.supports.iter().enumerate() {
         let place = supports.index(i);
@@ -47,18 +45,18 @@ pub(super) fn ends(
             "clamp its start: `[[{path}.supports]]` with `at = \"start\"` and `fix = [\"position\", \"orientation\"]`"
         )));
     }
-    Ok((start.end, end.end))
+    Ok((start.end, end.end, end.given))
 }
 
 /// An end on which supports are being put.
 struct Held {
     end: End,
-    orientation_given: bool,
+    given: GivenTargets,
 }
 
 impl Held {
     fn free(pose: Pose) -> Self {
-        Self { end: End::free(pose), orientation_given: false }
+        Self { end: End::free(pose), given: GivenTargets::default() }
     }
 
     fn add(&mut self, document: &Document, path: &KeyPath, support: &SupportFile) -> Result<(), SceneError> {
@@ -102,6 +100,7 @@ impl Held {
             }
             for i in (0..3).filter(|i| fixed[3 + i]) {
                 self.end.pose.position[i] = position[i];
+                self.given.position[i] = true;
             }
         }
         if let Some(orientation) = support.orientation {
@@ -110,14 +109,14 @@ impl Held {
                 return Err(unused("orientation", "\"orientation\", \"tangent\" or \"twist\""));
             }
             let rotation = document.quaternion(&place, orientation)?.to_matrix();
-            if self.orientation_given && rotation != self.end.pose.rotation {
+            if self.given.orientation && rotation != self.end.pose.rotation {
                 let error = document.error(&place, "two supports of this end give different orientations");
                 return Err(error.mend(
                     "tangent and twist of an end are held in one frame: give both the same orientation",
                 ));
             }
             self.end.pose.rotation = rotation;
-            self.orientation_given = true;
+            self.given.orientation = true;
         }
         Ok(())
     }
@@ -134,19 +133,6 @@ fn freedoms(name: FixName) -> std::ops::Range<usize> {
         FixName::Z => 5..6,
         FixName::Position => 3..6,
     }
-}
-
-/// The frame of the end of the rod when nothing acts on it.
-fn unloaded_end(rod: &Rod) -> Pose {
-    let description = rod.description();
-    rod.mesh().nodes().windows(2).fold(description.base, |pose, nodes| {
-        let h = (nodes[1] - nodes[0]) / STEPS as f64;
-        let middle = 0.5 * (nodes[0] + nodes[1]);
-        (0..STEPS).fold(pose, |pose, step| {
-            let s = nodes[0] + (step as f64 + 0.5) * h;
-            pose.compose(&Pose::exp(Strain::new(description.rest.curvature(s, middle), Vec3::Z) * h))
-        })
-    })
 }
 
 /// Puts the hand on its rod.

@@ -49,11 +49,11 @@ pub(super) fn rod(
                 _ => document.error(&path, error.to_string()),
             },
         )?;
-    let (start, end) = hold::ends(context, &path, file, &rod)?;
+    let (start, end, end_given) = hold::ends(context, &path, file, &rod)?;
     let problem = loads
         .problem(rod, start, end)
         .map_err(|error| document.error(&path.key("loads"), error.to_string()))?;
-    Ok(ModelRod { name: name.to_owned(), problem, hand: None, mesh, loads })
+    Ok(ModelRod { name: name.to_owned(), problem, hand: None, mesh, loads, end_given })
 }
 
 /// The frame of the rod's start.

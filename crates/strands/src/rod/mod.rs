@@ -16,7 +16,7 @@ pub use mesh::{Mesh, Order};
 pub use rest::{RestCurve, RestShape};
 pub use section::Section;
 
-use crate::element::DiagonalPoint;
+use crate::element::{DiagonalPoint, PointStrains, exponent};
 use crate::math::{Pose, Strain, Vec3};
 
 /// Which strains are free.
@@ -317,6 +317,21 @@ impl Rod {
     /// Typical magnitudes.
     pub fn scale(&self) -> Scale {
         self.scale
+    }
+
+    /// The frames of the nodes, in the world, when nothing acts on the rod: from [`RodDescription::base`] on, each element with its rest
+    /// strain. It is what a solve finds without loads, so an end held in the last of them bears nothing.
+    pub fn rest_poses(&self) -> Vec<Pose> {
+        let mut pose = self.description.base;
+        let mut poses = Vec::with_capacity(self.elements() + 1);
+        poses.push(pose);
+        for e in 0..self.elements() {
+            let points = self.points(e);
+            let strain: PointStrains = [points[0].rest, points[points.len() - 1].rest];
+            pose = pose.compose(&Pose::exp(exponent(self.order, self.element_length(e), &strain)));
+            poses.push(pose);
+        }
+        poses
     }
 }
 
