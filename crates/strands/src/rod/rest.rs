@@ -70,7 +70,8 @@ impl RestShape {
     }
 
     /// Follows a polyline: curvature from the turn at each vertex over the mean length of its two sides, without twist
-    /// (the frame is carried along without turning about the tangent; Bishop 1975). Second order in the spacing.
+    /// (the frame is carried along without turning about the tangent; Bishop 1975). A side has the curve's direction at its middle, so the
+    /// frame of the first point lies half a side's bend before the first side. Second order in the spacing.
     ///
     /// # Errors
     /// Where there are fewer than two points, one is not finite, two neighbours coincide, or the line folds back on itself.
@@ -90,8 +91,8 @@ impl RestShape {
         }
         let first = sides[0].1;
         let mut d1 = first.any_orthonormal();
-        let start = Pose { rotation: Mat3::from_cols(d1, first.cross(d1), first), position: points[0] };
-        let mut samples = Vec::with_capacity(points.len());
+        let of_first_side = Mat3::from_cols(d1, first.cross(d1), first);
+        let mut samples: Vec<(f64, Vec3)> = Vec::with_capacity(points.len());
         let mut s = 0.0;
         for (index, pair) in sides.windows(2).enumerate() {
             let ((before, t0), (after, t1)) = (pair[0], pair[1]);
@@ -108,6 +109,10 @@ impl RestShape {
             samples.push((s, Vec3::new(curvature.dot(d1), curvature.dot(t0.cross(d1)), 0.0)));
             d1 = Quat::from_rotation_vector(turn).to_matrix() * d1;
         }
+        // The curvature goes on as it is beyond the first and the last vertex.
+        let bend = samples.first().map_or(Vec3::ZERO, |sample| sample.1 * (0.5 * sides[0].0));
+        let back = Quat::from_rotation_vector(-bend).to_matrix();
+        let start = Pose { rotation: of_first_side * back, position: points[0] };
         let length = s + sides[sides.len() - 1].0;
         let shape = if samples.is_empty() { Self::default() } else { Self::Samples(samples) };
         Ok(RestCurve { shape, length, start })

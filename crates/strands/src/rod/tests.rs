@@ -78,6 +78,49 @@ fn a_polyline_along_a_helix_has_the_helix_curvature_and_no_twist_of_its_own() {
     assert_eq!(curvature.z, 0.0);
 }
 
+/// How far the end of a rod along `n` sides of a curve is from the curve's end, over its length.
+fn gap_of_the_end(n: usize, curve: impl Fn(f64) -> Vec3) -> f64 {
+    // Sides of different lengths, as a file has them.
+    let place = |i: usize| {
+        let x = i as f64 / n as f64;
+        x + 0.3 * x * (1.0 - x)
+    };
+    let points: Vec<Vec3> = (0..=n).map(|i| curve(place(i))).collect();
+    let rest = RestShape::polyline(&points).unwrap();
+    let law = Law::Diagonal(Stiffness { bending: [1.0; 2], torsion: 1.0, axial: 1.0, shear: [1.0; 2] });
+    let description = RodDescription {
+        length: rest.length,
+        kinematics: Kinematics::Kirchhoff,
+        profile: Profile::Given { law, mass_per_length: 0.0, half_extent: [0.0; 2] },
+        rest: rest.shape,
+        base: rest.start,
+    };
+    let rod = Rod::with_elements(description, 64 * n, &[], Order::Fourth).unwrap();
+    let end = rod.rest_poses()[rod.elements()].position;
+    (end - points[n]).norm() / rest.length
+}
+
+#[test]
+fn a_rod_along_a_polyline_ends_where_it_ends_to_second_order() {
+    let half_circle = |x: f64| {
+        let angle = core::f64::consts::PI * x;
+        Vec3::new(angle.cos(), angle.sin(), 0.0)
+    };
+    let helix = |x: f64| {
+        let angle = 4.0 * x;
+        Vec3::new(0.3 * angle.cos(), 0.3 * angle.sin(), 0.1 * angle)
+    };
+    for n in [10, 20, 40] {
+        for (name, slope) in [
+            ("half circle", (gap_of_the_end(n, half_circle) / gap_of_the_end(2 * n, half_circle)).log2()),
+            ("helix", (gap_of_the_end(n, helix) / gap_of_the_end(2 * n, helix)).log2()),
+        ] {
+            assert!((slope - 2.0).abs() < 0.2, "{name} from {n} sides: slope {slope:.3}");
+        }
+    }
+    assert!(gap_of_the_end(10, half_circle) < 0.02, "{}", gap_of_the_end(10, half_circle));
+}
+
 #[test]
 fn what_is_wrong_is_said() {
     let say = |error: RodError| error.to_string();
