@@ -4,7 +4,7 @@ use strands::coupling::VirtualCoupling;
 use strands::load::{DistributedLoad, NodalLoads, PointLoad};
 use strands::math::Vec3;
 use strands::rod::{Order, Rod, RodError};
-use strands::statics::{End, Problem, RefineError, Settings, refine};
+use strands::statics::{End, Problem, RefineError, Refined, Settings, refine};
 use thiserror::Error;
 
 /// The most elements that the rods of a scene may have together.
@@ -77,19 +77,30 @@ pub(crate) struct Loads {
 }
 
 impl Model {
-    /// This model with a mesh chosen for every rod that gives a tolerance.
+    /// This model with a mesh chosen for every rod that gives a tolerance, and with the solver's own tolerance as small as those ask for.
     ///
     /// # Errors
     /// Where a rod cannot be solved, or its tolerance not be met.
     pub fn refined(&self) -> Result<Self, MeshError> {
         let mut model = self.clone();
-        for rod in &mut model.rods {
-            let MeshChoice::Tolerance(tolerance) = rod.mesh else { continue };
-            rod.problem = rod
-                .refine(tolerance, &self.settings)
-                .map_err(|reason| MeshError { rod: rod.name.clone(), reason })?;
+        for name in self.rods.iter().map(|rod| &rod.name) {
+            model.refine(name)?;
         }
         Ok(model)
+    }
+
+    /// Chooses the mesh of one rod, if it gives a tolerance and is here. The solver's own tolerance becomes as small as that asks for.
+    ///
+    /// # Errors
+    /// Where the rod cannot be solved, or its tolerance not be met; the model is then as it was.
+    pub fn refine(&mut self, name: &str) -> Result<(), MeshError> {
+        let settings = self.settings;
+        let Some(rod) = self.rods.iter_mut().find(|rod| rod.name == name) else { return Ok(()) };
+        let MeshChoice::Tolerance(tolerance) = rod.mesh else { return Ok(()) };
+        let refined =
+            rod.refine(tolerance, &settings).map_err(|reason| MeshError { rod: rod.name.clone(), reason })?;
+        (rod.problem, self.settings) = (refined.problem, refined.settings);
+        Ok(())
     }
 
     /// The rod of a name.
@@ -99,7 +110,7 @@ impl Model {
 }
 
 impl ModelRod {
-    fn refine(&self, tolerance: f64, settings: &Settings) -> Result<Problem, RefineError> {
+    fn refine(&self, tolerance: f64, settings: &Settings) -> Result<Refined, RefineError> {
         let Problem { rod, start, end, .. } = &self.problem;
         let pose = |rod: Rod| {
             let end = self.end_given.on_mesh(end, &rod);
@@ -107,7 +118,6 @@ impl ModelRod {
         };
         let order: Order = rod.order();
         refine(rod.description(), order, &self.loads.breaks(), tolerance, MAX_ELEMENTS, settings, pose)
-            .map(|refined| refined.problem)
     }
 }
 

@@ -1,7 +1,7 @@
 //! The bundled scenes: each is read, solved from cold, and stands.
 
 use strands::statics::{Workspace, solve};
-use strands_scene::{Scene, bundled};
+use strands_scene::{Scene, bundled, bundled_scene};
 
 #[test]
 fn every_bundled_scene_converges_to_a_stable_equilibrium_from_cold() {
@@ -23,4 +23,15 @@ fn every_bundled_scene_converges_to_a_stable_equilibrium_from_cold() {
             assert!(solution.imbalance(&rod.problem) < 1e-8, "{} is out of balance", scene.name);
         }
     }
+}
+
+#[test]
+fn a_rod_with_a_tolerance_is_solved_more_precisely_than_that() {
+    let text = bundled_scene("cantilever").unwrap().text;
+    let changed =
+        text.lines().map(|line| if line.starts_with("elements") { "tolerance = 1e-6" } else { line });
+    let text = changed.collect::<Vec<_>>().join("\n") + "\n[solver]\ntolerance = 1e-3\n";
+    let model = Scene::parse(&text, "cantilever.toml", None).unwrap().model;
+    assert_eq!(model.settings.tolerance, 1e-3);
+    assert_eq!(model.refined().unwrap().settings.tolerance, 1e-8);
 }

@@ -20,6 +20,10 @@ const BLOCK: usize = 4;
 const MAX_ROUNDS: usize = 10;
 /// The part of the tolerance that a new mesh aims for.
 const AIM: f64 = 0.4;
+/// The part of it that the solver may leave, so that it does not count.
+const SOLVER_SHARE: f64 = 0.01;
+/// No search gets below this.
+const ROUND_OFF: f64 = 1e-13;
 /// From one round to the next the number of blocks grows at most by this factor.
 const MAX_GROWTH: f64 = 6.0;
 
@@ -30,6 +34,8 @@ pub struct Refined {
     pub problem: Problem,
     /// Its solution.
     pub solution: Solution,
+    /// What it was solved with: the settings given, their tolerance a small part of the mesh's where it was not.
+    pub settings: Settings,
     /// The estimated error of the nodes' frames: turns in rad, shifts over the rod's length, the largest of all.
     pub estimated_error: f64,
 }
@@ -61,7 +67,7 @@ pub enum RefineError {
     },
 }
 
-/// Finds the mesh. `breaks` are places that must be nodes besides the rod's own steps; `pose` makes the problem of a rod on a mesh.
+/// Finds the mesh, each solve more precise than the mesh's tolerance. `breaks` are places that must be nodes besides the rod's own steps; `pose` makes the problem of a rod on a mesh.
 ///
 /// # Errors
 /// As [`RefineError`] says.
@@ -81,6 +87,8 @@ where
         return Err(RefineError::Tolerance(tolerance));
     }
     description.validate()?;
+    let within = (SOLVER_SHARE * tolerance).max(ROUND_OFF);
+    let settings = Settings { tolerance: settings.tolerance.min(within), ..*settings };
     let spans = spans(description, breaks);
     let mut blocks: Vec<f64> = spans.iter().flat_map(|&(from, to)| evenly(from, to, FIRST_BLOCKS)).collect();
     let mut workspace = Workspace::default();
@@ -91,7 +99,7 @@ where
             |elements: usize, guess: &mut Option<Guess>| -> Result<(Problem, Solution), RefineError> {
                 let pieces: Vec<(f64, usize)> = blocks.iter().map(|&end| (end, elements)).collect();
                 let problem = pose(Rod::new(description.clone(), Mesh::from_pieces(&pieces), order)?)?;
-                let solution = solve(&problem, settings, guess.as_ref(), &mut workspace)?;
+                let solution = solve(&problem, &settings, guess.as_ref(), &mut workspace)?;
                 *guess = Some(solution.guess);
                 Ok((problem, solution))
             };
@@ -108,7 +116,7 @@ where
             .fold(0.0, f64::max)
             / gained;
         if error <= tolerance {
-            return Ok(Refined { problem, solution, estimated_error: error });
+            return Ok(Refined { problem, solution, settings, estimated_error: error });
         }
         last = (error, problem.rod.elements());
         let densities = densities(&blocks, &half.poses, &solution.poses, length, power);
