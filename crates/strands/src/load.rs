@@ -67,23 +67,24 @@ impl NodalLoads {
     /// # Errors
     /// Where no node lies there.
     pub fn with_point(mut self, rod: &Rod, load: &PointLoad) -> Result<Self, RodError> {
-        let outside = RodError::OutsideRod { what: "a load", s: load.at, length: rod.length() };
-        let node = rod.mesh().node_at(load.at).ok_or(outside)?;
+        let node = node(rod, "a load", load.at)?;
         self.of(load.frame)[node] += load.wrench;
         Ok(self)
     }
 
-    /// Adds a load along a stretch, summed onto the nodes by a rule of the rod's order.
+    /// Adds a load along a stretch, summed onto the nodes by a rule of the rod's order. Of order 4 the rule is where the stretch has at least
+    /// two elements between breaks.
     ///
     /// # Errors
     /// Where no node lies at one of its ends, or it ends before it starts.
     pub fn with_distributed(mut self, rod: &Rod, load: &DistributedLoad) -> Result<Self, RodError> {
-        for s in [load.from, load.to] {
-            let outside = RodError::OutsideRod { what: "a load's end", s, length: rod.length() };
-            rod.mesh().node_at(s).ok_or(outside)?;
+        let (from, to) = (load.from, load.to);
+        let [start, end] = [node(rod, "a load's start", from)?, node(rod, "a load's end", to)?];
+        if start > end {
+            return Err(RodError::Backwards { what: "a load", from, to });
         }
         let target = self.of(load.frame);
-        rod.mesh().distribute(rod.order(), load.from, load.to, |node, _, _, weight| {
+        rod.mesh().distribute(rod.order(), from, to, |node, _, _, weight| {
             target[node] += load.per_length * weight;
         });
         Ok(self)
@@ -108,3 +109,22 @@ impl NodalLoads {
         }
     }
 }
+
+/// The node at a place on a rod, where something acts.
+fn node(rod: &Rod, what: &'static str, s: f64) -> Result<usize, RodError> {
+    if let Some(node) = rod.mesh().node_at(s) {
+        return Ok(node);
+    }
+    let length = rod.length();
+    if !(0.0..=length).contains(&s) {
+        return Err(RodError::OutsideRod { what, s, length });
+    }
+    let nodes = rod.mesh().nodes();
+    let after = nodes.partition_point(|node| *node < s);
+    let (before, after) = (nodes[after - 1], nodes[after]);
+    let nearest = if s - before <= after - s { before } else { after };
+    Err(RodError::NotANode { what, s, nearest })
+}
+
+#[cfg(test)]
+mod tests;

@@ -87,6 +87,28 @@ pub enum RodError {
         /// The rod's length, m.
         length: f64,
     },
+    /// A place between nodes for something that acts on nodes.
+    #[error(
+        "{what} at s = {s} lies between nodes, the nearest of them at s = {nearest}: give {s} among the mesh's breaks, or use a node"
+    )]
+    NotANode {
+        /// What is placed there.
+        what: &'static str,
+        /// Where, m.
+        s: f64,
+        /// The place of the nearest node, m.
+        nearest: f64,
+    },
+    /// A stretch that ends before it starts.
+    #[error("{what} goes from s = {from} back to {to}: swap the two")]
+    Backwards {
+        /// What goes along the stretch.
+        what: &'static str,
+        /// Its start, m.
+        from: f64,
+        /// Its end, m.
+        to: f64,
+    },
     /// Fewer elements than the stretches between loads and steps need.
     #[error(
         "{elements} elements are too few: the rod's {spans} stretches between steps and loads need at least {needed}"

@@ -127,19 +127,20 @@ impl Mesh {
         self.nodes.iter().position(|node| (node - s).abs() <= 1e-9 * length)
     }
 
-    /// Sums a function of `s` onto the nodes: calls `add(node, s, towards, weight)` so that `Σ weight f(s)` is its integral over each
-    /// span that lies within `[from, to]`. `towards` is a place inside the span, which tells the sides of a jump apart.
+    /// Sums a function of `s` onto the nodes: calls `add(node, s, towards, weight)` so that `Σ weight f(s)` is its integral over the
+    /// elements that lie within `[from, to]`, each span's by one rule. `towards` is a place inside the span, which tells the sides of a jump
+    /// apart.
     pub fn distribute(&self, order: Order, from: f64, to: f64, mut add: impl FnMut(usize, f64, f64, f64)) {
         let slack = 1e-9 * self.nodes[self.nodes.len() - 1];
         for span in &self.spans {
             let (start, end) = (self.nodes[span.start], self.nodes[span.end]);
-            if start < from - slack || end > to + slack {
-                continue;
-            }
             let h = (end - start) / span.len() as f64;
             let middle = 0.5 * (start + end);
-            for (i, weight) in weights(order, span.len()).into_iter().enumerate() {
-                add(span.start + i, self.nodes[span.start + i], middle, weight * h);
+            let within = |e: &usize| self.nodes[*e] >= from - slack && self.nodes[*e + 1] <= to + slack;
+            let Some(first) = span.clone().find(within) else { continue };
+            let count = (first..span.end).take_while(within).count();
+            for (i, weight) in weights(order, count).into_iter().enumerate() {
+                add(first + i, self.nodes[first + i], middle, weight * h);
             }
         }
     }
