@@ -1,4 +1,4 @@
-/** The scene's numbers that the inspector shows: where each is in the scene, its label, its unit, and a sentence about it. */
+/** The scene's numbers that the inspector shows: where each is in the scene or in the rod that the hand holds, its label, its unit, and a sentence about it. */
 
 export type SceneJson = Record<string, any>
 
@@ -11,58 +11,53 @@ export interface NumberField {
   /** How many of the scene's units make one of the field's. */
   scale: number
   /** The value, or undefined where the scene has no such number. */
-  get: (scene: SceneJson) => number | undefined
-  set: (scene: SceneJson, value: number) => void
+  get: (scene: SceneJson, rod: SceneJson) => number | undefined
+  set: (scene: SceneJson, rod: SceneJson, value: number) => void
 }
 
-export function firstRod(scene: SceneJson): SceneJson {
-  return scene.rods[Object.keys(scene.rods)[0]]
+function material(scene: SceneJson, rod: SceneJson): SceneJson | undefined {
+  return scene.materials?.[rod.material]
 }
 
-function material(scene: SceneJson): SceneJson | undefined {
-  return scene.materials?.[firstRod(scene).material]
-}
-
-/** The scene's section where it is the same all along the rod. */
-function section(scene: SceneJson): SceneJson | undefined {
-  const { section } = firstRod(scene)
+/** The rod's section where it is the same all along it. */
+function section(rod: SceneJson): SceneJson | undefined {
+  const { section } = rod
   return section && !Array.isArray(section) ? section : undefined
 }
 
-export function isRectangle(scene: SceneJson): boolean {
-  const { section } = firstRod(scene)
+export function isRectangle(rod: SceneJson): boolean {
+  const { section } = rod
   return (Array.isArray(section) ? section[0] : section)?.shape === 'rectangle'
 }
 
 function sectionField(key: string, label: string, help: string): NumberField {
   return {
     group: 'strand', id: key, label, unit: 'mm', help, scale: 1e-3,
-    get: (scene) => section(scene)?.[key],
-    set: (scene, value) => (section(scene)![key] = value),
+    get: (_, rod) => section(rod)?.[key],
+    set: (_, rod, value) => (section(rod)![key] = value),
   }
 }
 
 function materialField(key: string, id: string, label: string, unit: string, help: string, scale: number): NumberField {
   return {
     group: 'strand', id, label, unit, help, scale,
-    get: (scene) => material(scene)?.[key],
-    set: (scene, value) => (material(scene)![key] = value),
+    get: (scene, rod) => material(scene, rod)?.[key],
+    set: (scene, rod, value) => (material(scene, rod)![key] = value),
   }
 }
 
-function restCurvature(scene: SceneJson): number[] | undefined {
-  const rest = firstRod(scene).rest
+function restCurvature({ rest }: SceneJson): number[] | undefined {
   return rest === undefined || rest === null ? [0, 0, 0] : rest.curvature
 }
 
 function restField(index: number, id: string, label: string, help: string): NumberField {
   return {
     group: 'strand', id, label, unit: '1/m', help, scale: 1,
-    get: (scene) => restCurvature(scene)?.[index],
-    set: (scene, value) => {
-      const curvature = [...(restCurvature(scene) ?? [0, 0, 0])]
+    get: (_, rod) => restCurvature(rod)?.[index],
+    set: (_, rod, value) => {
+      const curvature = [...(restCurvature(rod) ?? [0, 0, 0])]
       curvature[index] = value
-      firstRod(scene).rest = { curvature }
+      rod.rest = { curvature }
     },
   }
 }
@@ -70,8 +65,8 @@ function restField(index: number, id: string, label: string, help: string): Numb
 function helixField(key: string, label: string, help: string): NumberField {
   return {
     group: 'strand', id: `helix-${key}`, label, unit: 'mm', help, scale: 1e-3,
-    get: (scene) => firstRod(scene).rest?.helix?.[key],
-    set: (scene, value) => (firstRod(scene).rest.helix[key] = value),
+    get: (_, rod) => rod.rest?.helix?.[key],
+    set: (_, rod, value) => (rod.rest.helix[key] = value),
   }
 }
 
@@ -86,8 +81,8 @@ function direction(gravity: number[]): number[] {
 export const numberFields: NumberField[] = [
   {
     group: 'strand', id: 'length', label: 'Length', unit: 'mm', help: 'Length of the thread when nothing acts on it.', scale: 1e-3,
-    get: (scene) => firstRod(scene).length,
-    set: (scene, value) => (firstRod(scene).length = value),
+    get: (_, rod) => rod.length,
+    set: (_, rod, value) => (rod.length = value),
   },
   sectionField('radius', 'Radius', 'Radius of its round section.'),
   sectionField('a', 'Half axis a', 'Half the width of its elliptic section along d1.'),
@@ -106,17 +101,17 @@ export const numberFields: NumberField[] = [
     group: 'strand', id: 'gravity', label: 'Gravity', unit: 'm/s²', scale: 1,
     help: 'Acceleration of gravity in the scene’s direction, downwards where the scene has none.',
     get: (scene) => size(scene.gravity ?? []),
-    set: (scene, value) => (scene.gravity = direction(scene.gravity ?? []).map((part) => part * value)),
+    set: (scene, _, value) => (scene.gravity = direction(scene.gravity ?? []).map((part) => part * value)),
   },
   {
     group: 'solver', id: 'elements', label: 'Elements', unit: '–', help: 'How many elements the thread is cut into.', scale: 1,
-    get: (scene) => firstRod(scene).elements,
-    set: (scene, value) => (firstRod(scene).elements = Math.max(1, Math.round(value))),
+    get: (_, rod) => rod.elements,
+    set: (_, rod, value) => (rod.elements = Math.max(1, Math.round(value))),
   },
   {
     group: 'solver', id: 'tolerance', label: 'Tolerance', unit: '–', help: 'The residual, over the rod’s own scales, at which a solve is accepted.', scale: 1,
     get: (scene) => scene.solver?.tolerance ?? 1e-9,
-    set: (scene, value) => (scene.solver = { ...scene.solver, tolerance: value }),
+    set: (scene, _, value) => (scene.solver = { ...scene.solver, tolerance: value }),
   },
 ]
 

@@ -2,13 +2,14 @@
 
 import { atNodes, quantities, type MapName } from './colour'
 import { checkbox, choice, numberInput, refuse, write } from './controls'
-import { couplingFields, firstRod, numberFields, type SceneJson } from './fields'
+import { couplingFields, numberFields, type SceneJson } from './fields'
 import type { HandMode, Shape } from './protocol'
 import type { Stage, ViewOptions } from './stage'
 
 /** What the inspector asks of the page. */
 export interface Edits {
-  scene: (change: (scene: SceneJson) => void) => void
+  /** `rod` is the one that the hand holds. */
+  scene: (change: (scene: SceneJson, rod: SceneJson) => void) => void
   /** The hand was put somewhere by numbers. */
   hand: (change: () => void) => void
   mode: (mode: HandMode) => void
@@ -36,18 +37,18 @@ export class Inspector {
     this.#view()
   }
 
-  /** Writes the scene's numbers. Rows for what the scene does not have are hidden. */
-  fill(scene: SceneJson): void {
+  /** Writes the numbers of the scene and of the rod that the hand holds. Rows for what they do not have are hidden. */
+  fill(scene: SceneJson, rod: SceneJson): void {
     for (const field of numberFields) {
       const input = this.#numbers.get(field.id)!
-      const value = field.get(scene)
+      const value = field.get(scene, rod)
       input.closest('label')!.hidden = value === undefined
       input.removeAttribute('aria-invalid')
       input.closest('label')!.classList.remove('bad')
       // Also while it has the focus: a number that was refused goes back to what holds.
       input.value = value === undefined ? '' : String(Number((value / field.scale).toPrecision(6)))
     }
-    this.#choices.get('kinematics')!.value = firstRod(scene).kinematics ?? 'cosserat'
+    this.#choices.get('kinematics')!.value = rod.kinematics ?? 'cosserat'
     this.#choices.get('order')!.value = String(scene.solver?.order ?? 2)
   }
 
@@ -84,13 +85,13 @@ export class Inspector {
     for (const field of numberFields.filter((field) => field.group === 'strand')) this.#field(field)
     const kinds: [string, string][] = [['kirchhoff', 'inextensible'], ['cosserat', 'extensible']]
     this.#choices.set('kinematics', choice(group('strand'), 'kinematics', 'Kinematics', 'Whether the thread can stretch and shear, or only bend and twist.', kinds, (value) => {
-      this.edits.scene((scene) => (firstRod(scene).kinematics = value))
+      this.edits.scene((_, rod) => (rod.kinematics = value))
     }))
   }
 
   #field(field: (typeof numberFields)[number]): void {
     this.#number(field.group, field.id, field.label, field.unit, field.help, (value) => {
-      this.edits.scene((scene) => field.set(scene, value * field.scale))
+      this.edits.scene((scene, rod) => field.set(scene, rod, value * field.scale))
     })
   }
 

@@ -1,7 +1,7 @@
 /** The page: scenes, stage, inspector and the strip of numbers, around one solver. */
 
 import './style.css'
-import { isRectangle, firstRod, type SceneJson } from './fields'
+import { isRectangle, type SceneJson } from './fields'
 import { download, forgetShared, givenScene, listenToFiles, share } from './files'
 import { Gestures } from './gestures'
 import { dismissHints, listenToHelp, showGestures, showHints } from './help'
@@ -78,7 +78,7 @@ function receive(reply: Reply): void {
       scene = JSON.parse(reply.scene)
       stage.hand.set(reply.shape.hand)
       setUp(reply.shape)
-      inspector.fill(scene)
+      inspector.fill(scene, scene.rods[reply.shape.report.rod])
       coupling = reply.coupling
       inspector.fillCoupling(coupling)
       // The first solve starts from rest, and says nothing of the frames to come.
@@ -86,7 +86,7 @@ function receive(reply: Reply): void {
     case 'shape':
       if (reply.scene) {
         scene = JSON.parse(reply.scene)
-        inspector.fill(scene)
+        inspector.fill(scene, scene.rods[reply.shape.report.rod])
         inspector.fillCoupling(reply.coupling)
       }
       coupling = reply.coupling
@@ -98,9 +98,10 @@ function receive(reply: Reply): void {
 
 /** Prepares stage and names for a scene that has just been opened. */
 function setUp(first: Shape): void {
-  const startIsHeld = firstRod(scene).supports?.some((support: SceneJson) => support.at === 'start') ?? false
+  const rod = scene.rods[first.report.rod]
+  const startIsHeld = rod.supports?.some(({ at }: SceneJson) => at === 'start' || at === 0) ?? false
   const surgical = String(scene.name ?? '').includes('suture')
-  stage.setScene(first, { square: isRectangle(scene), surgical, startIsHeld })
+  stage.setScene(first, { square: isRectangle(rod), othersAreSquare: first.others.map(({ name }) => isRectangle(scene.rods[name])), surgical, startIsHeld })
   inspector.fillView()
   element('scene-name').textContent = spoken(scene.name ?? opened.name)
   markCurrent(element('rail'), scene.name)
@@ -159,21 +160,26 @@ let lastEdit = Promise.resolve()
 function inTurn(work: () => Promise<void>): void {
   // One that breaks off must not hold up those after it.
   lastEdit = lastEdit.then(work).catch((error) => {
-    inspector.fill(scene)
+    refill()
     say(`This change could not be made (${error}).`)
   })
 }
 
-function edit(change: (scene: SceneJson) => void): void {
+/** Writes what holds into the inspector's fields. */
+function refill(): void {
+  inspector.fill(scene, scene.rods[shape!.report.rod])
+}
+
+function edit(change: (scene: SceneJson, rod: SceneJson) => void): void {
   inTurn(async () => {
     const edited = structuredClone(scene)
-    change(edited)
+    change(edited, edited.rods[shape!.report.rod])
     const before = now()
     const reply = await solver.ask({ kind: 'replace', text: JSON.stringify(edited) })
     if (reply.kind === 'shape') history.push(before)
     receive(reply)
     // What was refused is not what holds.
-    if (reply.kind === 'error') inspector.fill(scene)
+    if (reply.kind === 'error') refill()
   })
 }
 

@@ -5,6 +5,8 @@ export type HandMode = 'pose' | 'coupling' | 'scene' | 'free'
 
 /** How a solve went, as the solver reports it. Reactions are in world axes, N and N·m. */
 export interface Report {
+  /** The name of the rod that the hand holds. */
+  rod: string
   status: 'converged' | 'failed'
   reason: string | null
   /** Whether the worker is still on its way to the hand. */
@@ -31,15 +33,19 @@ export interface Reaction {
   moment: [number, number, number]
 }
 
-/** The shape after a solve: twelve numbers a node (d1, d2, d3, position), six an element, two half extents a node. */
-export interface Shape {
+/** Where a rod is: twelve numbers a node (d1, d2, d3, position), two half extents a node. */
+export interface Body {
   frames: Float64Array
-  otherFrames: Float64Array
+  halfExtent: Float64Array
+}
+
+/** The shape of the rod in the hand after a solve, and where the others are; what is of elements has six numbers each. */
+export interface Shape extends Body {
+  others: (Body & { name: string })[]
   strain: Float64Array
   stress: Float64Array
   /** Elastic energy per length, J/m, one number an element. */
   energyDensity: Float64Array
-  halfExtent: Float64Array
   hand: Float64Array
   report: Report
   /** Hand, coupling and solution, to go back to. */

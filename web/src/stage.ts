@@ -18,6 +18,8 @@ export interface ViewOptions extends Look, GlyphOptions {
 /** What the stage must know of a scene beside its shape. */
 export interface Setting {
   square: boolean
+  /** One for each rod that the hand does not hold. */
+  othersAreSquare: boolean[]
   surgical: boolean
   startIsHeld: boolean
 }
@@ -35,6 +37,8 @@ const FIRST_VIEW = new THREE.Vector3(0.35, -1.45, 0.55).normalize()
 
 export class Stage {
   readonly tube = new Tube()
+  /** The threads that are not in the hand. */
+  readonly others = new THREE.Group()
   readonly hand = new Hand()
   readonly camera = new THREE.PerspectiveCamera(32, 1, 0.001, 50)
   readonly orbit: OrbitControls
@@ -44,6 +48,7 @@ export class Stage {
   }
   /** The size of the scene, m. */
   size = 0.2
+  #others: Tube[] = []
   #renderer: THREE.WebGLRenderer
   #scene = new THREE.Scene()
   #props = new Props()
@@ -87,7 +92,7 @@ export class Stage {
       onGizmo()
     })
     this.#rim.position.set(0.6, 1, 0.5)
-    this.#scene.add(this.#fill, this.#rim, this.#key, this.#key.target, this.#ground.group, this.tube.mesh, this.#glyphs.lines)
+    this.#scene.add(this.#fill, this.#rim, this.#key, this.#key.target, this.#ground.group, this.tube.mesh, this.others, this.#glyphs.lines)
     this.#scene.add(this.#props.end, this.#props.start, this.#props.below, this.#gap, this.#arrows.group, this.gizmo.getHelper())
     this.#gap.visible = this.#glyphs.lines.visible = false
     this.#gap.frustumCulled = false
@@ -119,10 +124,19 @@ export class Stage {
 
   /** Prepares for a new scene: its things, the size of them, and a view of all of it. */
   setScene(shape: Shape, setting: Setting): void {
+    this.#shape = shape
     const { box, size, radius } = this.#measure(shape)
     this.size = size
     this.#floor = box.min.z - DROP * size
     this.tube.setSection(setting.square)
+    for (const tube of this.#others) tube.dispose()
+    this.#others = setting.othersAreSquare.map((square) => {
+      const tube = new Tube()
+      tube.setSection(square)
+      return tube
+    })
+    this.others.clear()
+    for (const tube of this.#others) this.others.add(tube.mesh)
     this.#props.choose(setting.surgical, setting.startIsHeld)
     const thin = (LEAST_RADIUS * size) / radius
     this.view.displayScale = thin <= 1 ? 1 : thin < 3 ? Math.ceil(thin * 2) / 2 : Math.ceil(thin)
@@ -135,6 +149,7 @@ export class Stage {
   show(shape: Shape): void {
     this.#shape = shape
     this.tube.update(shape, this.view)
+    this.#others.forEach((tube, i) => tube.updateQuiet(shape.others[i], this.view.displayScale))
     const nodes = shape.frames.length / 12
     const { start, end } = this.#props
     if (!this.gizmo.dragging) place(end, shape.frames, nodes - 1)
@@ -228,10 +243,9 @@ export class Stage {
   /** How far the thread reaches from the middle of the picture: one is its edge. */
   #extent(): number {
     this.camera.updateProjectionMatrix()
-    const { frames } = this.#shape!
     let most = 0.1
-    for (let i = 9; i < frames.length; i += 12) {
-      const { x, y } = new THREE.Vector3().fromArray(frames, i).project(this.camera)
+    for (const at of places(this.#shape!)) {
+      const { x, y } = at.project(this.camera)
       most = Math.max(most, Math.abs(x), Math.abs(y))
     }
     return most
@@ -239,10 +253,9 @@ export class Stage {
 
   #measure(shape: Shape): { box: THREE.Box3; size: number; radius: number } {
     const box = new THREE.Box3()
-    const at = new THREE.Vector3()
-    for (let i = 9; i < shape.frames.length; i += 12) box.expandByPoint(at.fromArray(shape.frames, i))
+    for (const at of places(shape)) box.expandByPoint(at)
     const radius = shape.halfExtent.reduce((most, a) => Math.max(most, a), 1e-9)
-    return { box, size: Math.max(box.getSize(at).length(), 0.02), radius }
+    return { box, size: Math.max(box.getSize(new THREE.Vector3()).length(), 0.02), radius }
   }
 
   #lookAt(shape: Shape, direction: THREE.Vector3): void {
@@ -256,8 +269,8 @@ export class Stage {
     const sideways = new THREE.Vector3().crossVectors(this.camera.up, direction).normalize()
     const upwards = new THREE.Vector3().crossVectors(direction, sideways)
     let distance = 0
-    for (let i = 9; i < shape.frames.length; i += 12) {
-      const at = new THREE.Vector3().fromArray(shape.frames, i).sub(centre)
+    for (const at of places(shape)) {
+      at.sub(centre)
       const x = Math.abs(at.dot(sideways)) + MARGIN.x * size
       const y = Math.abs(at.dot(upwards)) + MARGIN.y * size
       distance = Math.max(distance, at.dot(direction) + Math.max(x / wide, y / high))
@@ -295,6 +308,13 @@ export class Stage {
     this.camera.updateProjectionMatrix()
     this.#dirty = true
   }
+}
+
+/** The places of the nodes of all rods. */
+function places(shape: Shape): THREE.Vector3[] {
+  return [shape, ...shape.others].flatMap(({ frames }) =>
+    Array.from({ length: frames.length / 12 }, (_, i) => new THREE.Vector3().fromArray(frames, 12 * i + 9)),
+  )
 }
 
 /** Puts a thing where a node is, keeping its scale. */

@@ -5,10 +5,12 @@
 
 import * as THREE from 'three'
 import { atNodes, colourAt, quantities, type MapName } from './colour'
-import type { Shape } from './protocol'
+import type { Body, Shape } from './protocol'
 
 /** The colour of a thread that shows nothing: that of a blue suture, in linear light. */
 const PLAIN = [0.03, 0.13, 0.42]
+/** And that of one that is not in the hand. */
+const QUIET = [0.2, 0.22, 0.25]
 const STRIPE = [0.82, 0.84, 0.86]
 
 /** A point of a ring, over the half extents along d1 and d2; its normal is `(p, q)` over those. */
@@ -61,6 +63,11 @@ export class Tube {
     this.mesh.frustumCulled = false
   }
 
+  dispose(): void {
+    this.#geometry.dispose()
+    ;(this.mesh.material as THREE.Material).dispose()
+  }
+
   /** Round or elliptic, or a rectangle. */
   setSection(square: boolean): void {
     if (square === this.#square) return
@@ -70,32 +77,42 @@ export class Tube {
     this.#nodes = 0
   }
 
+  /** The thread in the hand, coloured by a quantity. */
   update(shape: Shape, look: Look): void {
-    const nodes = shape.frames.length / 12
-    if (nodes !== this.#nodes) this.#allocate(nodes)
-    const position = this.#geometry.attributes.position.array as Float32Array
-    const normal = this.#geometry.attributes.normal.array as Float32Array
-    const colour = this.#geometry.attributes.color.array as Float32Array
     const quantity = quantities[look.colourBy]
     const shown = quantity && atNodes(quantity, shape)
     if (shown) this.range = shown.range
     const [low, high] = look.range ?? this.range
-    const base = [...PLAIN]
+    this.#lay(shape, look.displayScale, PLAIN, shown && ((i, into) => colourAt(look.map, high > low ? (shown.values[i] - low) / (high - low) : 0.5, into)))
+  }
+
+  /** A thread that nobody holds. */
+  updateQuiet(body: Body, displayScale: number): void {
+    this.#lay(body, displayScale, QUIET, null)
+  }
+
+  #lay(body: Body, displayScale: number, plain: number[], colourOf: ((node: number, into: number[]) => void) | null): void {
+    const nodes = body.frames.length / 12
+    if (nodes !== this.#nodes) this.#allocate(nodes)
+    const position = this.#geometry.attributes.position.array as Float32Array
+    const normal = this.#geometry.attributes.normal.array as Float32Array
+    const colour = this.#geometry.attributes.color.array as Float32Array
+    const base = [...plain]
     const points = this.#ring.length
     const put = (at: number, i: number, point: Point, cap: number) => {
       const f = 12 * i
-      const a = shape.halfExtent[2 * i] * look.displayScale
-      const b = shape.halfExtent[2 * i + 1] * look.displayScale
+      const a = body.halfExtent[2 * i] * displayScale
+      const b = body.halfExtent[2 * i + 1] * displayScale
       const size = Math.hypot(b * point.p, a * point.q)
       for (let k = 0; k < 3; k++) {
-        const [d1, d2, d3] = [shape.frames[f + k], shape.frames[f + 3 + k], shape.frames[f + 6 + k]]
-        position[at + k] = shape.frames[f + 9 + k] + a * point.u * d1 + b * point.v * d2
+        const [d1, d2, d3] = [body.frames[f + k], body.frames[f + 3 + k], body.frames[f + 6 + k]]
+        position[at + k] = body.frames[f + 9 + k] + a * point.u * d1 + b * point.v * d2
         normal[at + k] = cap ? cap * d3 : (b * point.p * d1 + a * point.q * d2) / size
         colour[at + k] = point.stripe && !cap ? STRIPE[k] : base[k]
       }
     }
     for (let i = 0; i < nodes; i++) {
-      if (shown) colourAt(look.map, high > low ? (shown.values[i] - low) / (high - low) : 0.5, base)
+      colourOf?.(i, base)
       for (let j = 0; j < points; j++) put(3 * (i * points + j), i, this.#ring[j], 0)
       if (i > 0 && i < nodes - 1) continue
       const first = nodes * points + (i ? points + 1 : 0)

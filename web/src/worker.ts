@@ -22,7 +22,7 @@ function shape(open: Session, milliseconds: number): Shape {
   settling = report.settling
   return {
     frames: open.frames(),
-    otherFrames: open.other_frames(),
+    others: open.other_names().map((name, i) => ({ name, frames: open.other_frames(i), halfExtent: open.other_half_extent(i) })),
     strain: open.strain(),
     stress: open.stress(),
     energyDensity: open.energy_density(),

@@ -2,7 +2,7 @@
 
 import assert from 'node:assert/strict'
 import { after, before, test } from 'node:test'
-import { badge, changes, done, openScene, openText, sharedPage, start, text, type, until, value } from './browser.mjs'
+import { badge, changes, done, hand, openScene, openText, out, sharedPage, start, text, type, until, value } from './browser.mjs'
 
 let context
 const fresh = sharedPage(() => context)
@@ -159,6 +159,50 @@ test('a number that no spring can have is refused beside its field, and the last
   await until(page, () => document.getElementById('message').textContent.includes('too soft'))
   assert.equal(await value(page, 'mode'), 'pose')
   await page.locator('#message-close').click()
+  assert.deepEqual(complaints, [])
+})
+
+test('of several rods all are drawn, and the fields are of the one in the hand', async () => {
+  const { page, complaints } = await fresh()
+  const still = `[rods.still]
+length = 0.2
+elements = 10
+stiffness = { bending = [1e-4, 1e-4], torsion = 1e-4 }
+kinematics = "kirchhoff"
+position = [0.1, 0.0, 0.0]
+supports = [{ at = "start", fix = ["position", "orientation"] }]
+`
+  await openText(page, 'held', HELD.replace('[rods.beam]', `${still}[rods.beam]`))
+  assert.equal(await value(page, 'length'), '300')
+  assert.equal(await value(page, 'elements'), '40')
+  const drawn = await page.evaluate(() => {
+    const meshes = window.strands.stage.others.children
+    return meshes.map(({ geometry }) => (geometry.computeBoundingBox(), [geometry.boundingBox.min, geometry.boundingBox.max].map(({ x, z }) => [x, z])))
+  })
+  assert.equal(drawn.length, 1)
+  const [[left, low], [right, high]] = drawn[0]
+  assert.ok(left > 0.08 && right < 0.12 && Math.abs(low) < 1e-6 && Math.abs(high - 0.2) < 1e-6, JSON.stringify(drawn))
+  await type(page, 'length', 310)
+  await done(page)
+  const toml = await page.evaluate(() => window.strands.solver.ask({ kind: 'toml' }).then((reply) => reply.data))
+  assert.match(toml, /\[rods\.still\]\s+length = 0\.2\s[^]*\[rods\.beam\]\s+length = 0\.31\s/)
+  await page.screenshot({ path: `${out}rods.png` })
+  // The other one cannot be grabbed: a drag at its end looks around.
+  const [x, y] = await page.evaluate(() => {
+    const { stage } = window.strands
+    const at = stage.hand.position.clone().set(0.1, 0, 0.2).project(stage.camera)
+    const box = stage.canvas.getBoundingClientRect()
+    return [box.left + ((at.x + 1) / 2) * box.width, box.top + ((1 - at.y) / 2) * box.height]
+  })
+  const [before, eye] = [await hand(page), await page.evaluate(() => window.strands.stage.camera.position.x)]
+  await page.mouse.move(x, y)
+  await page.mouse.down()
+  await page.mouse.move(x + 30, y, { steps: 3 })
+  await page.mouse.up()
+  await until(page, (eye) => window.strands.stage.camera.position.x !== eye, eye)
+  assert.deepEqual(await hand(page), before)
+  await openScene(page, 'ribbon')
+  assert.equal(await page.evaluate(() => window.strands.stage.others.children.length), 0)
   assert.deepEqual(complaints, [])
 })
 

@@ -10,8 +10,10 @@ mod session;
 mod settle;
 
 use hand::HandMode;
+use numbers::flat;
 use session::State;
 use strands::math::{Pose, Quat, Vec3};
+use strands_scene::ModelRod;
 use wasm_bindgen::prelude::*;
 
 pub use bench::bench;
@@ -133,12 +135,22 @@ impl Session {
 
     /// The frames of the held rod's nodes: twelve numbers each, `d1 d2 d3` and the position.
     pub fn frames(&self) -> Vec<f64> {
-        self.state.frames()
+        flat(&self.state.solution().poses)
     }
 
-    /// The frames of the other rods' nodes, rod after rod, in the same way.
-    pub fn other_frames(&self) -> Vec<f64> {
-        self.state.other_frames()
+    /// The names of the rods that the hand does not hold.
+    pub fn other_names(&self) -> Vec<String> {
+        self.state.others().map(|(rod, _)| rod.name.clone()).collect()
+    }
+
+    /// The frames of the nodes of one of these rods, in the same way.
+    pub fn other_frames(&self, index: usize) -> Vec<f64> {
+        self.state.others().nth(index).map_or_else(Vec::new, |(_, solution)| flat(&solution.poses))
+    }
+
+    /// Its half extents along `d1` and `d2` at each node, m.
+    pub fn other_half_extent(&self, index: usize) -> Vec<f64> {
+        self.state.others().nth(index).map_or_else(Vec::new, |(rod, _)| half_extent(rod))
     }
 
     /// Strains of the held rod's elements, six numbers each, body frame.
@@ -158,10 +170,10 @@ impl Session {
 
     /// Half extents of the held rod along `d1` and `d2` at each node, m.
     pub fn half_extent(&self) -> Vec<f64> {
-        self.state.rod().problem.rod.half_extent().iter().flatten().copied().collect()
+        half_extent(self.state.rod())
     }
 
-    /// How the last solve went, as JSON: `status`, `reason`, `method`, `iterations`, `residual`, `sweeps`, `path_steps`, `morse_index`, `energy`,
+    /// How the last solve went, as JSON: `rod` (the name of the held one), `status`, `reason`, `method`, `iterations`, `residual`, `sweeps`, `path_steps`, `morse_index`, `energy`,
     /// `saturated`, `settling` (whether there is more to do), `mode`, `beyond` (how far the hand is out of reach, m), and the reactions `start` and `end`, each `{ force, moment }` in world axes.
     pub fn report(&self) -> String {
         self.state.report()
@@ -178,4 +190,8 @@ impl Session {
         let model = self.state.model();
         strands_scene::write::glb(model, &self.state.named_solutions())
     }
+}
+
+fn half_extent(rod: &ModelRod) -> Vec<f64> {
+    rod.problem.rod.half_extent().iter().flatten().copied().collect()
 }

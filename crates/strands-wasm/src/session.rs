@@ -73,10 +73,12 @@ impl State {
 
     fn put(&mut self, scene: Scene, guess: Option<Guess>) -> Result<(), String> {
         let mut solutions = Vec::with_capacity(scene.model.rods.len());
+        // A text that went through the page may have its rods in another order.
+        let held = scene.model.rods.iter().position(|rod| rod.name == self.rod().name).unwrap_or(0);
         for (i, rod) in scene.model.rods.iter().enumerate() {
             let mut problem = rod.problem.clone();
-            let guess = if i == self.held { guess } else { None };
-            if i == self.held {
+            let guess = if i == held { guess } else { None };
+            if i == held {
                 problem.end = self.end(rod, 0.0);
             }
             match solve(&problem, &scene.model.settings, guess.as_ref(), &mut self.workspace) {
@@ -84,7 +86,7 @@ impl State {
                 Err(failure) => return Err(format!("rod `{}`: {failure}", rod.name)),
             }
         }
-        self.held = self.held.min(solutions.len() - 1);
+        self.held = held;
         self.scene = scene;
         self.solutions = solutions;
         // The old home belongs to another rod.
@@ -317,13 +319,10 @@ impl State {
         (self.hand.position - self.aim().position).norm()
     }
 
-    pub fn frames(&self) -> Vec<f64> {
-        flat(&self.solution().poses)
-    }
-
-    pub fn other_frames(&self) -> Vec<f64> {
-        let others = self.solutions.iter().enumerate().filter(|(i, _)| *i != self.held);
-        others.flat_map(|(_, solution)| flat(&solution.poses)).collect()
+    /// The rods that the hand does not hold, with their shapes.
+    pub fn others(&self) -> impl Iterator<Item = (&ModelRod, &Solution)> {
+        let all = self.scene.model.rods.iter().zip(&self.solutions).enumerate();
+        all.filter(|(i, _)| *i != self.held).map(|(_, rod)| rod)
     }
 
     /// Elastic energy per length of each element of the held rod, J/m.
@@ -344,6 +343,7 @@ impl State {
             serde_json::json!({ "force": reaction.force.to_array(), "moment": reaction.moment.to_array() })
         });
         serde_json::json!({
+            "rod": self.rod().name,
             "status": if reason.is_none() { "converged" } else { "failed" },
             "reason": reason,
             "settling": self.way.is_some(),

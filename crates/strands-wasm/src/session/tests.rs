@@ -28,6 +28,12 @@ fn a_dragged_suture_follows_the_hand_and_stays_within_its_reach() {
     assert!(tip(state.solution()).position.norm() < 0.3);
 }
 
+impl State {
+    fn frames(&self) -> Vec<f64> {
+        flat(&self.solution().poses)
+    }
+}
+
 /// Solves and settles; gives how many bits of work it took.
 fn go(state: &mut State) -> usize {
     if state.solve(0.0) {
@@ -232,4 +238,18 @@ fn a_spring_that_nobody_has_set_is_not_written() {
     state.restore(&text, HandMode::Free, &snapshot).unwrap();
     assert_eq!(state.coupling(), usual);
     assert!(state.file_with_hand().coupling.is_none());
+}
+
+#[test]
+fn the_rod_in_the_hand_stays_the_one_that_it_is_when_an_edited_scene_has_the_rods_in_another_order() {
+    let mut state = State::open(TWO, "two.toml").unwrap();
+    let names = |state: &State| state.others().map(|(rod, _)| rod.name.clone()).collect::<Vec<_>>();
+    assert_eq!(names(&state), ["still"]);
+    let mut file = state.file().clone();
+    file.rods.reverse();
+    file.rods["held"].elements = Some(30);
+    state.replace(&file.to_json(), "scene.json").unwrap();
+    assert_eq!((state.rod().name.as_str(), state.solution().strain.len()), ("held", 30));
+    assert_eq!(names(&state), ["still"]);
+    assert!(state.report().contains(r#""rod":"held""#), "{}", state.report());
 }
