@@ -2,8 +2,8 @@
 //!
 //! First in small steps from the last shape. Where the thread would have to snap over, that way ends at the snap; then from the shape that
 //! the scene opened with. Steps that turn a part of the thread by a radian, or lose stability, are made smaller; an unstable shape at the hand is
-//! taken when no way leads to a stable one. A start from rest, with its many routes, cannot be
-//! interrupted, so it comes after all other starts: by then the hand rests.
+//! taken when no way leads to a stable one. A start from rest goes to whatever shape it finds, so it comes after all other starts: by then the
+//! hand rests.
 
 use strands::coupling::VirtualCoupling;
 use strands::math::{Mat3, Pose, Quat};
@@ -57,10 +57,6 @@ impl Start {
         guess
     }
 }
-
-/// How small the steps may become on the way from rest to another branch, which cannot be interrupted: it takes a quarter of a second where
-/// there is one, and two seconds where not.
-const HALVINGS_OF_A_SNAP: usize = 8;
 
 /// A way that is being walked.
 #[derive(Debug)]
@@ -146,8 +142,7 @@ impl Way {
     fn start_elsewhere(&mut self, goal: &Problem, settings: &Settings, workspace: &mut Workspace) -> Bit {
         let Some(start) = self.others.pop() else {
             let stable = |found: &Solution| found.report.morse_index.unwrap_or(0) == 0;
-            let quick = Settings { max_halvings: HALVINGS_OF_A_SNAP, ..*settings };
-            let snapped = if self.may_snap { solve(goal, &quick, None, workspace).ok() } else { None };
+            let snapped = if self.may_snap { solve(goal, settings, None, workspace).ok() } else { None };
             let snapped = snapped.filter(stable);
             return snapped.or_else(|| self.unstable.take()).map_or(Bit::Stuck, Bit::Arrived);
         };
