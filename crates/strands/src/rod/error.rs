@@ -33,6 +33,14 @@ pub enum RodError {
         /// Which entry, from 0.
         index: usize,
     },
+    /// Numbers that are no frame.
+    #[error(
+        "the {what} is no frame: its numbers must be finite and its axes unit vectors across one another, right-handed"
+    )]
+    NotAFrame {
+        /// Which frame.
+        what: &'static str,
+    },
     /// Places that do not grow.
     #[error("{what} {index} lies before the one that precedes it: s must not fall")]
     NotIncreasing {

@@ -1,6 +1,7 @@
 //! How stress follows from strain.
 
-use super::RodError;
+use super::{Kinematics, RodError};
+use crate::element::free_strains;
 use crate::math::{Mat6, Strain, Stress, Vec3, Vec6};
 use std::fmt::Debug;
 use std::sync::Arc;
@@ -103,20 +104,22 @@ impl Law {
                 }
             }
         }
-        // Cholesky, kept only for its pivots.
-        let mut a = stiffness;
-        for k in 0..6 {
-            if !(a[k][k] > 0.0 && a[k][k].is_finite()) {
-                return Err(RodError::NotPositiveDefinite { row: k });
-            }
-            for i in k + 1..6 {
-                let factor = a[i][k] / a[k][k];
-                for j in k..6 {
-                    a[i][j] -= factor * a[k][j];
-                }
+        positive_definite(stiffness, 6)?;
+        Ok(Self::Full(Box::new(Mat6::from_rows(&stiffness))))
+    }
+
+    /// Checks that stress grows with strain: of a stored energy, at rest and for the strains that are free.
+    ///
+    /// # Errors
+    /// Where a stiffness is not positive and finite, or a matrix not symmetric and positive definite.
+    pub fn validate(&self, kinematics: Kinematics) -> Result<(), RodError> {
+        match self {
+            Self::Diagonal(stiffness) => stiffness.validate(),
+            Self::Full(matrix) => Self::full(matrix.to_rows()).map(|_| ()),
+            Self::Hyperelastic(energy) => {
+                positive_definite(energy.tangent(Strain::ZERO).to_rows(), free_strains(kinematics))
             }
         }
-        Ok(Self::Full(Box::new(Mat6::from_rows(&stiffness))))
     }
 
     /// Stored energy per unit rest length of an elastic strain, J/m.
@@ -144,6 +147,22 @@ impl Law {
             Self::Hyperelastic(energy) => energy.tangent(e),
         }
     }
+}
+
+/// Checks the first `size` rows and columns of a symmetric matrix, by the pivots of its Cholesky factorisation.
+fn positive_definite(mut a: [[f64; 6]; 6], size: usize) -> Result<(), RodError> {
+    for k in 0..size {
+        if !(a[k][k] > 0.0 && a[k][k].is_finite()) {
+            return Err(RodError::NotPositiveDefinite { row: k });
+        }
+        for i in k + 1..size {
+            let factor = a[i][k] / a[k][k];
+            for j in k..size {
+                a[i][j] -= factor * a[k][j];
+            }
+        }
+    }
+    Ok(())
 }
 
 /// A rod that stiffens as it deforms: `W = ½ Σ Cᵢ eᵢ² (1 + ½ (eᵢ/aᵢ)²)`, so that at `eᵢ = aᵢ` the secant stiffness has

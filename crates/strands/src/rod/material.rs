@@ -34,10 +34,19 @@ impl Material {
     /// # Errors
     /// Where a modulus is not positive, the density is negative, or a number is not finite.
     pub fn new(youngs_modulus: f64, shear_modulus: f64, density: f64) -> Result<Self, RodError> {
-        RodError::positive("youngs_modulus", youngs_modulus)?;
-        RodError::positive("shear_modulus", shear_modulus)?;
-        RodError::not_negative("density", density)?;
-        Ok(Self { youngs_modulus, shear_modulus, density })
+        let material = Self { youngs_modulus, shear_modulus, density };
+        material.validate()?;
+        Ok(material)
+    }
+
+    /// Checks that the moduli are positive, the density is not negative, and all are finite.
+    ///
+    /// # Errors
+    /// The first that is not.
+    pub fn validate(&self) -> Result<(), RodError> {
+        RodError::positive("youngs_modulus", self.youngs_modulus)?;
+        RodError::positive("shear_modulus", self.shear_modulus)?;
+        RodError::not_negative("density", self.density)
     }
 
     /// Poisson's ratio `ν = E/(2G) − 1`.

@@ -89,21 +89,34 @@ impl Mesh {
             }
         }
         let pieces: Vec<(f64, usize)> = (0..spans).map(|i| (cuts[i + 1], counts[i])).collect();
-        Ok(Self::from_pieces(&pieces))
+        Self::from_pieces(&pieces)
     }
 
     /// Pieces end to end, each given by where it ends and how many equal elements it has.
-    pub fn from_pieces(pieces: &[(f64, usize)]) -> Self {
+    ///
+    /// # Errors
+    /// Where there is no piece, one has no element, or one does not end, at a finite place, after it starts.
+    pub fn from_pieces(pieces: &[(f64, usize)]) -> Result<Self, RodError> {
+        if pieces.is_empty() {
+            return Err(RodError::TooFewPoints { what: "pieces of the mesh", needed: 1, got: 0 });
+        }
         let mut mesh = Self { nodes: vec![0.0], spans: Vec::with_capacity(pieces.len()) };
         let mut start = 0.0;
         for &(end, elements) in pieces {
+            if elements == 0 {
+                return Err(RodError::TooFewPoints { what: "elements of a piece", needed: 1, got: 0 });
+            }
+            if !(end > start && end.is_finite()) {
+                let expected = "a finite number greater than the end of the one before, or than zero";
+                return Err(RodError::OutOfRange { quantity: "the end of a piece", value: end, expected });
+            }
             let first = mesh.nodes.len() - 1;
             mesh.nodes.extend((1..elements).map(|i| start + (end - start) * i as f64 / elements as f64));
             mesh.nodes.push(end);
             mesh.spans.push(first..first + elements);
             start = end;
         }
-        mesh
+        Ok(mesh)
     }
 
     /// The nodes' places, m from the start, growing; the first is 0 and the last the rod's length.
@@ -187,6 +200,24 @@ mod tests {
         assert!(mesh.node_at(0.35).is_some());
         assert_eq!(mesh.spans().len(), 2);
         assert!(Mesh::even(1.0, 1, &[0.5]).is_err());
+    }
+
+    #[test]
+    fn pieces_that_are_no_mesh_are_refused() {
+        let bad: [&[(f64, usize)]; 6] = [
+            &[],
+            &[(0.5, 0), (1.0, 5)],
+            &[(0.5, 2), (0.4, 2)],
+            &[(0.5, 2), (0.5, 2)],
+            &[(0.0, 1)],
+            &[(f64::NAN, 1)],
+        ];
+        for pieces in bad {
+            assert!(Mesh::from_pieces(pieces).is_err(), "{pieces:?}");
+        }
+        let said = Mesh::from_pieces(&[(0.5, 2), (0.4, 2)]).unwrap_err().to_string();
+        assert!(said.starts_with("the end of a piece is 0.4, but must be"), "{said}");
+        assert_eq!(Mesh::from_pieces(&[(0.5, 1), (1.0, 2)]).unwrap().nodes(), [0.0, 0.5, 0.75, 1.0]);
     }
 
     #[test]

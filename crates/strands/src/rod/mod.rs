@@ -17,7 +17,7 @@ pub use rest::{RestCurve, RestShape};
 pub use section::Section;
 
 use crate::element::{DiagonalPoint, PointStrains, exponent};
-use crate::math::{Pose, Strain, Vec3};
+use crate::math::{Mat3, Pose, Strain, Vec3};
 
 /// Which strains are free.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
@@ -88,17 +88,19 @@ impl RodDescription {
     /// The first thing that is wrong.
     pub fn validate(&self) -> Result<(), RodError> {
         RodError::positive("length", self.length)?;
-        if let RestShape::Constant(curvature) = self.rest
-            && !curvature.is_finite()
-        {
-            return Err(RodError::NotFinite { what: "rest curvature", index: 0 });
+        self.rest.validate()?;
+        let frame = self.base.rotation;
+        let skew = (frame.transpose() * frame - Mat3::IDENTITY).max_abs();
+        // Frames that were multiplied many times are still frames.
+        if !(self.base.is_finite() && skew < 1e-6 && frame.determinant() > 0.0) {
+            return Err(RodError::NotAFrame { what: "base" });
         }
         match &self.profile {
-            Profile::Given { law, mass_per_length, .. } => {
-                if let Law::Diagonal(stiffness) = law {
-                    stiffness.validate()?;
-                }
-                RodError::not_negative("mass_per_length", *mass_per_length)
+            Profile::Given { law, mass_per_length, half_extent } => {
+                law.validate(self.kinematics)?;
+                RodError::not_negative("mass_per_length", *mass_per_length)?;
+                RodError::not_negative("half_extent", half_extent[0])?;
+                RodError::not_negative("half_extent", half_extent[1])
             }
             Profile::Stations(stations) => self.validate_stations(stations),
         }
@@ -110,6 +112,11 @@ impl RodDescription {
         }
         for station in stations {
             station.section.validate()?;
+            station.material.validate()?;
+            // Sizes that are fine by themselves can be too small or too large for their powers.
+            station.section.stiffness(&station.material).validate()?;
+            let mass = station.material.density * station.section.area();
+            RodError::not_negative("mass_per_length", mass)?;
             if !(station.s >= 0.0 && station.s <= self.length * (1.0 + 1e-9)) {
                 return Err(RodError::OutsideRod { what: "a section", s: station.s, length: self.length });
             }

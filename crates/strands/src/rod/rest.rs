@@ -55,6 +55,21 @@ impl RestShape {
     /// # Errors
     /// Where there is none, one is not finite, or the places do not grow.
     pub fn samples(samples: Vec<(f64, Vec3)>) -> Result<Self, RodError> {
+        let shape = Self::Samples(samples);
+        shape.validate()?;
+        Ok(shape)
+    }
+
+    /// Checks that every number is finite, and that samples are there and their places do not fall.
+    ///
+    /// # Errors
+    /// The first that is not.
+    pub fn validate(&self) -> Result<(), RodError> {
+        let samples = match self {
+            Self::Constant(curvature) if curvature.is_finite() => return Ok(()),
+            Self::Constant(_) => return Err(RodError::NotFinite { what: "rest curvature", index: 0 }),
+            Self::Samples(samples) => samples,
+        };
         if samples.is_empty() {
             return Err(RodError::TooFewPoints { what: "rest samples", needed: 1, got: 0 });
         }
@@ -66,7 +81,7 @@ impl RestShape {
                 return Err(RodError::NotIncreasing { what: "rest samples", index: i });
             }
         }
-        Ok(Self::Samples(samples))
+        Ok(())
     }
 
     /// Follows a polyline: curvature from the turn at each vertex over the mean length of its two sides, without twist

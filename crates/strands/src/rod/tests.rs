@@ -1,4 +1,5 @@
 use super::*;
+use crate::math::Mat6;
 
 #[test]
 fn torsion_constants_match_the_tables() {
@@ -135,6 +136,67 @@ fn what_is_wrong_is_said() {
     assert_eq!(Law::full(matrix).unwrap_err(), RodError::NotPositiveDefinite { row: 2 });
     matrix[0][1] = 0.5;
     assert!(matches!(Law::full(matrix), Err(RodError::NotSymmetric { .. })));
+}
+
+#[test]
+fn a_rod_of_numbers_that_are_none_is_refused() {
+    let material = Material::from_poisson(1e9, 0.3, 1000.0).unwrap();
+    let good = || RodDescription {
+        length: 1.0,
+        kinematics: Kinematics::Cosserat,
+        profile: Profile::Stations(vec![Station {
+            s: 0.0,
+            section: Section::Circle { radius: 1e-3 },
+            material,
+        }]),
+        rest: RestShape::default(),
+        base: Pose::IDENTITY,
+    };
+    let of = |material: Material, radius: f64| {
+        let section = Section::Circle { radius };
+        RodDescription { profile: Profile::Stations(vec![Station { s: 0.0, section, material }]), ..good() }
+    };
+    let given = |law: Law, mass_per_length: f64, width: f64| {
+        let profile = Profile::Given { law, mass_per_length, half_extent: [width, 0.0] };
+        RodDescription { profile, ..good() }
+    };
+    let rest = |rest: RestShape| RodDescription { rest, ..good() };
+    let base = |base: Pose| RodDescription { base, ..good() };
+    let stiffness = Stiffness { bending: [1.0; 2], torsion: 1.0, axial: 1.0, shear: [1.0; 2] };
+    let energy = |torsion: f64| {
+        let stiffness = Stiffness { torsion, ..stiffness };
+        let doubling_strain = Strain::from([1.0; 6]);
+        Law::Hyperelastic(std::sync::Arc::new(StiffeningEnergy { stiffness, doubling_strain }))
+    };
+    let mut matrix = Mat6Rows::identity();
+    matrix[4][4] = -1.0;
+    let nan = Vec3::new(0.0, f64::NAN, 0.0);
+    let doubled = Pose { rotation: Pose::IDENTITY.rotation.scaled(2.0), position: Vec3::ZERO };
+    let mirrored = Pose { rotation: Pose::IDENTITY.rotation.scaled(-1.0), position: Vec3::ZERO };
+    let bad = [
+        ("E < 0", of(Material { youngs_modulus: -1.0, ..material }, 1e-3)),
+        ("G = NaN", of(Material { shear_modulus: f64::NAN, ..material }, 1e-3)),
+        ("ρ < 0", of(Material { density: -1.0, ..material }, 1e-3)),
+        ("EI = 0 by underflow", of(material, 1e-90)),
+        ("base at NaN", base(Pose { position: nan, ..Pose::IDENTITY })),
+        ("a base of no unit vectors", base(doubled)),
+        ("a left-handed base", base(mirrored)),
+        ("no sample", rest(RestShape::Samples(Vec::new()))),
+        ("a sample of NaN", rest(RestShape::Samples(vec![(0.0, nan)]))),
+        ("samples that fall", rest(RestShape::Samples(vec![(0.5, Vec3::X), (0.2, Vec3::X)]))),
+        ("rest curvature NaN", rest(RestShape::Constant(nan))),
+        ("a matrix that is not positive", given(Law::Full(Box::new(Mat6::from_rows(&matrix))), 1.0, 0.0)),
+        ("an energy that is not positive", given(energy(-1.0), 1.0, 0.0)),
+        ("mass NaN", given(Law::Diagonal(stiffness), f64::NAN, 0.0)),
+        ("width < 0", given(Law::Diagonal(stiffness), 1.0, -1.0)),
+    ];
+    for (what, description) in bad {
+        let rod = Rod::with_elements(description, 10, &[], Order::Second);
+        assert!(rod.is_err(), "{what} was accepted");
+    }
+    for description in [good(), given(energy(1.0), 1.0, 0.0)] {
+        assert!(Rod::with_elements(description, 10, &[], Order::Second).is_ok());
+    }
 }
 
 struct Mat6Rows;

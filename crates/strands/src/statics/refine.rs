@@ -98,7 +98,7 @@ where
         let mut on =
             |elements: usize, guess: &mut Option<Guess>| -> Result<(Problem, Solution), RefineError> {
                 let pieces: Vec<(f64, usize)> = blocks.iter().map(|&end| (end, elements)).collect();
-                let problem = pose(Rod::new(description.clone(), Mesh::from_pieces(&pieces), order)?)?;
+                let problem = pose(Rod::new(description.clone(), Mesh::from_pieces(&pieces)?, order)?)?;
                 let solution = solve(&problem, &settings, guess.as_ref(), &mut workspace)?;
                 *guess = Some(solution.guess);
                 Ok((problem, solution))

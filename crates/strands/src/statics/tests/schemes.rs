@@ -74,7 +74,7 @@ fn uneven(pieces: usize) -> Mesh {
         at += if i % 2 == 0 { 1.4 } else { 0.6 } * 0.8 / pieces as f64;
         out.push((if i == pieces - 1 { 0.8 } else { at }, 1 + i % 3 / 2));
     }
-    Mesh::from_pieces(&out)
+    Mesh::from_pieces(&out).unwrap()
 }
 
 fn on_mesh(law: Option<&Law>, mesh: Mesh, kinematics: Kinematics) -> Problem {
