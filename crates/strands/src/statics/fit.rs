@@ -2,13 +2,31 @@
 
 use super::problem::Problem;
 use super::solution::{FailureReason, Scheme, Settings};
+use crate::load::NodalLoads;
 use crate::rod::Order;
+use std::borrow::Cow;
 
 /// Why a problem cannot be posed as it is; `None` where it can.
 pub(crate) fn unfit(problem: &Problem, settings: &Settings) -> Option<FailureReason> {
+    let nodes = problem.rod.elements() + 1;
+    for loads in [problem.loads.world.len(), problem.loads.body.len()] {
+        if loads != nodes {
+            return Some(FailureReason::LoadsOfAnotherRod { loads, nodes });
+        }
+    }
     // An element of order 4 has two points, and the multistep scheme takes one strain an element.
     if settings.scheme == Scheme::Multistep && problem.rod.order() == Order::Fourth {
         return Some(FailureReason::SchemeOfOrder { order: Order::Fourth.as_number() });
     }
     None
+}
+
+/// A problem to look at where it cannot be posed: without loads that are not the rod's.
+pub(crate) fn fitted(problem: &Problem) -> Cow<'_, Problem> {
+    let nodes = problem.rod.elements() + 1;
+    if problem.loads.world.len() == nodes && problem.loads.body.len() == nodes {
+        return Cow::Borrowed(problem);
+    }
+    let loads = NodalLoads::none(&problem.rod);
+    Cow::Owned(Problem { loads, ..problem.clone() })
 }

@@ -43,8 +43,9 @@ pub fn solve(
 ) -> Result<Solution, SolveFailure> {
     let mut report = SolveReport::default();
     if let Some(reason) = refused(problem, settings) {
-        let search = nearest(problem, guess, workspace, &mut report);
-        return Err(failure(problem, &search, reason, workspace, report));
+        let problem = fit::fitted(problem);
+        let search = nearest(&problem, guess, workspace, &mut report);
+        return Err(failure(&problem, &search, reason, workspace, report));
     }
     let search = find(problem, settings, guess, workspace, &mut report);
     report.morse_index =

@@ -261,6 +261,16 @@ pub enum FailureReason {
          use order 2 or 4, or method = \"shooting\""
     )]
     NoEnergy,
+    /// The loads are summed onto the nodes of another rod.
+    #[error(
+        "the loads are those of a rod of {loads} nodes, and this one has {nodes}; sum them onto this rod (NodalLoads::none(&rod))"
+    )]
+    LoadsOfAnotherRod {
+        /// For how many nodes there are loads.
+        loads: usize,
+        /// How many the rod has.
+        nodes: usize,
+    },
     /// The scheme does not go with the rod's order.
     #[error(
         "the multistep scheme takes one strain an element, and a rod of order {order} has two; use scheme = \"element\", or order = 2"
