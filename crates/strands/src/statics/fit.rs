@@ -14,6 +14,9 @@ pub(crate) fn unfit(problem: &Problem, settings: &Settings) -> Option<FailureRea
             return Some(FailureReason::LoadsOfAnotherRod { loads, nodes });
         }
     }
+    if problem.start.grip.is_some() {
+        return Some(FailureReason::GripAtStart);
+    }
     // An element of order 4 has two points, and the multistep scheme takes one strain an element.
     if settings.scheme == Scheme::Multistep && problem.rod.order() == Order::Fourth {
         return Some(FailureReason::SchemeOfOrder { order: Order::Fourth.as_number() });

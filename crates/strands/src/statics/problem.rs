@@ -16,7 +16,7 @@ pub struct End {
     pub fixed: [bool; 6],
     /// The frame they are fixed to.
     pub pose: Pose,
-    /// A hand that holds this end through a spring and damper. At the rod's end only.
+    /// A hand that holds this end through a spring and damper. At the rod's end only: a problem with one at its start is refused.
     pub grip: Option<Grip>,
 }
 

@@ -271,6 +271,11 @@ pub enum FailureReason {
         /// How many the rod has.
         nodes: usize,
     },
+    /// A hand holds the rod's start.
+    #[error(
+        "a hand can hold the rod's end only, and this one holds its start; build the rod the other way round, or clamp its start"
+    )]
+    GripAtStart,
     /// The scheme does not go with the rod's order.
     #[error(
         "the multistep scheme takes one strain an element, and a rod of order {order} has two; use scheme = \"element\", or order = 2"

@@ -23,3 +23,22 @@ fn loads_of_another_rod_are_refused() {
         assert_eq!(reason(&problem), FailureReason::LoadsOfAnotherRod { loads: 31, nodes });
     }
 }
+
+#[test]
+fn a_hand_at_the_start_is_refused() {
+    let mut problem = loaded(Kinematics::Cosserat, 20, Order::Second, Frame::World);
+    let coupling = VirtualCoupling {
+        linear_stiffness: 100.0,
+        angular_stiffness: 1.0,
+        linear_damping: 0.0,
+        angular_damping: 0.0,
+        max_force: 1.0,
+        max_torque: 0.1,
+    };
+    problem.start.grip = Some(Grip { coupling, hand: problem.start.pose, last: None });
+    assert_eq!(reason(&problem), FailureReason::GripAtStart);
+    let start = problem.start.pose;
+    problem.start = End { fixed: [false; 6], ..problem.start };
+    problem.end = End::clamped(start);
+    assert_eq!(reason(&problem), FailureReason::GripAtStart);
+}
