@@ -24,7 +24,7 @@ use strands::math::SimdLevel;
 pub enum Failure {
     /// A bad scene, a bad argument, a file that cannot be read or written: what to tell the person.
     Bad(String),
-    /// A solve found no equilibrium; its answer has been printed.
+    /// A solve found no equilibrium, or none within the tolerance; its answer has been printed.
     Unsolved,
 }
 

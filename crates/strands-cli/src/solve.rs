@@ -3,8 +3,8 @@
 use std::path::{Path, PathBuf};
 use std::time::Instant;
 
-use strands::statics::{RefineError, Solution, SolveFailure, Workspace, solve};
-use strands_scene::{Model, write};
+use strands::statics::{RefineError, Solution, Workspace, solve};
+use strands_scene::{MeshError, Model, write};
 
 use crate::args::Solve;
 use crate::{Failure, colour_out, overrides, say, source, summary};
@@ -16,7 +16,7 @@ pub struct Outcome {
     pub model: Model,
     /// The rods that were solved, in the scene's order. The first failure ends it.
     pub solved: Vec<SolvedRod>,
-    /// The rod for which no equilibrium was found.
+    /// The rod for which no equilibrium was found, or none within its tolerance.
     pub failed: Option<FailedRod>,
     /// How long all of it took, s.
     pub seconds: f64,
@@ -38,8 +38,10 @@ pub struct SolvedRod {
 pub struct FailedRod {
     /// The rod's name.
     pub name: String,
-    /// Why there is none, and what came nearest.
-    pub failure: SolveFailure,
+    /// Why there is none, or none within the tolerance.
+    pub reason: String,
+    /// What came nearest.
+    pub nearest: Solution,
 }
 
 /// The command.
@@ -58,7 +60,7 @@ pub fn run(options: &Solve) -> Result<(), Failure> {
             Some(bytes) => {
                 std::fs::write(path, bytes).map_err(|error| Failure::file(path.display(), &error))?
             }
-            None => eprintln!("note: {} is not written: there is no equilibrium to show", path.display()),
+            None => eprintln!("note: {} is not written: there is no solution to show", path.display()),
         }
     }
     if options.json {
@@ -69,25 +71,16 @@ pub fn run(options: &Solve) -> Result<(), Failure> {
     if outcome.failed.is_some() { Err(Failure::Unsolved) } else { Ok(()) }
 }
 
-fn solve_all(model: Model) -> Result<Outcome, Failure> {
+fn solve_all(mut model: Model) -> Result<Outcome, Failure> {
     let start = Instant::now();
-    let model = match model.refined() {
-        Ok(refined) => refined,
-        // No equilibrium on one of the meshes that were tried: there is none to be expected on the first one either, and its answer says why.
-        Err(error) if matches!(error.reason, RefineError::Solve(_)) => model,
-        Err(error) => return Err(Failure::bad(error)),
-    };
     let mut workspace = Workspace::default();
-    let (mut solved, mut failed) = (Vec::with_capacity(model.rods.len()), None);
-    for rod in &model.rods {
-        let start = Instant::now();
-        match solve(&rod.problem, &model.settings, None, &mut workspace) {
-            Ok(solution) => {
-                let seconds = start.elapsed().as_secs_f64();
-                solved.push(SolvedRod { name: rod.name.clone(), solution, seconds });
-            }
-            Err(failure) => {
-                failed = Some(FailedRod { name: rod.name.clone(), failure });
+    let names: Vec<String> = model.rods.iter().map(|rod| rod.name.clone()).collect();
+    let (mut solved, mut failed) = (Vec::with_capacity(names.len()), None);
+    for name in names {
+        match solve_rod(&mut model, name, &mut workspace)? {
+            Ok(rod) => solved.push(rod),
+            Err(rod) => {
+                failed = Some(rod);
                 break;
             }
         }
@@ -95,12 +88,43 @@ fn solve_all(model: Model) -> Result<Outcome, Failure> {
     Ok(Outcome { model, solved, failed, seconds: start.elapsed().as_secs_f64() })
 }
 
+/// Chooses a rod's mesh, if it is to be chosen, and solves the rod. What fails is the outer error where the scene is at fault.
+fn solve_rod(
+    model: &mut Model,
+    name: String,
+    workspace: &mut Workspace,
+) -> Result<Result<SolvedRod, FailedRod>, Failure> {
+    match model.refine(&name) {
+        Ok(()) => {}
+        // No equilibrium on one of the meshes that were tried: there is none to be expected on the first one either, and its answer says why.
+        Err(MeshError { reason: RefineError::Solve(_), .. }) => {}
+        Err(MeshError { reason, .. }) => {
+            let said = reason.to_string();
+            let RefineError::TooFine { nearest, .. } = reason else {
+                return Err(Failure::bad(format!("no mesh for rod `{name}`: {said}")));
+            };
+            return Ok(Err(FailedRod { name, reason: said, nearest: nearest.solution }));
+        }
+    }
+    let Some(rod) = model.rod(&name) else { unreachable!("the names are the model's") };
+    let start = Instant::now();
+    let solution = solve(&rod.problem, &model.settings, None, workspace);
+    let seconds = start.elapsed().as_secs_f64();
+    Ok(match solution {
+        Ok(solution) => Ok(SolvedRod { name, solution, seconds }),
+        Err(failure) => {
+            Err(FailedRod { name, reason: failure.reason.to_string(), nearest: *failure.nearest })
+        }
+    })
+}
+
 /// The answer as one JSON object.
 fn json(outcome: &Outcome) -> String {
     let Outcome { model, failed, seconds, .. } = outcome;
     match failed {
-        Some(FailedRod { name, failure }) => {
-            write::failure_json(model, name, &failure.reason, &failure.nearest.report, Some(*seconds))
+        Some(FailedRod { name, reason, nearest }) => {
+            let solved = solutions(outcome);
+            write::failure_json(model, name, reason, &nearest.report, &solved, Some(*seconds))
         }
         None => write::json(model, &solutions(outcome), Some(*seconds)),
     }

@@ -51,8 +51,8 @@ fn picture(outcome: &Outcome, paint: Paint) -> String {
     let mut lines: Vec<Vec<Vec3>> = outcome.solved.iter().map(|rod| line(&rod.solution.poses)).collect();
     let mut of_what = "";
     if let Some(rod) = &outcome.failed {
-        lines.push(line(&rod.failure.nearest.poses));
-        of_what = "; the nearest shape, no equilibrium";
+        lines.push(line(&rod.nearest.poses));
+        of_what = "; the nearest shape, no solution";
     }
     if !lines.iter().flatten().all(|p| p.is_finite()) {
         return String::new();
@@ -125,7 +125,7 @@ fn verdict(solution: &Solution) -> (Style, &'static str) {
 }
 
 fn failed(rod: &FailedRod, paint: Paint) -> String {
-    let report = &rod.failure.nearest.report;
+    let report = &rod.nearest.report;
     let last = report.residual_history.len().saturating_sub(8);
     let history: Vec<String> = report.residual_history[last..].iter().map(|x| format!("{x:.1e}")).collect();
     let mut out = String::new();
@@ -136,7 +136,7 @@ fn failed(rod: &FailedRod, paint: Paint) -> String {
         report.iterations,
         history.join(" ")
     );
-    let reason = format!("failed: {}", rod.failure.reason);
+    let reason = format!("failed: {}", rod.reason);
     let _ = writeln!(out, "  {:<9} {}", "result", paint.with(AnsiColor::Red.on_default().bold(), &reason));
     out
 }

@@ -95,12 +95,27 @@ fn a_failed_solve_says_why_and_how_far_it_got() {
     let failure =
         solve(&model.rods[0].problem, &model.settings, None, &mut Workspace::default()).unwrap_err();
     let report = &failure.nearest.report;
-    let answer = write::failure_json(&model, "thread", &failure, report, None);
+    let answer = write::failure_json(&model, "thread", &failure, report, &[], None);
     let answer: Value = serde_json::from_str(&answer).unwrap();
     assert_eq!(answer["status"], "failed");
     assert_eq!(answer["rod"], "thread");
     assert!(answer["reason"].as_str().unwrap().starts_with("out of reach"));
     assert_eq!(answer["residual_history"].as_array().unwrap().len(), report.residual_history.len());
+    assert_eq!(answer["rods"].as_object().unwrap().len(), 0);
+}
+
+#[test]
+fn a_failed_solve_keeps_the_rods_that_were_solved() {
+    let (model, solutions) = solved();
+    let solved = named(&model, &solutions);
+    let (failed, before) = (solved[1], &solved[..1]);
+    let answer = write::failure_json(&model, failed.0, &"it broke", &failed.1.report, before, None);
+    let answer: Value = serde_json::from_str(&answer).unwrap();
+    assert_eq!((&answer["status"], &answer["rod"]), (&"failed".into(), &failed.0.into()));
+    let whole: Value = serde_json::from_str(&write::json(&model, &solved, None)).unwrap();
+    let rods = answer["rods"].as_object().unwrap();
+    assert_eq!(rods.len(), 1);
+    assert_eq!(rods[before[0].0], whole["rods"][before[0].0]);
 }
 
 #[test]

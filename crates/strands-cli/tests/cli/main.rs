@@ -67,6 +67,22 @@ fn no_equilibrium_is_status_two_and_still_an_answer() {
 }
 
 #[test]
+fn a_tolerance_that_no_mesh_meets_is_status_two_and_keeps_what_was_solved() {
+    let run = strands(&["solve", "too_fine.toml", "--json"]);
+    assert_eq!(run.code, 2, "{}", run.err);
+    let answer: Value = serde_json::from_str(&run.out).expect("one JSON value");
+    assert_eq!((&answer["status"], &answer["rod"]), (&"failed".into(), &"fine".into()));
+    assert!(answer["reason"].as_str().is_some_and(|reason| reason.contains("ask for less")), "{answer}");
+    assert!(answer["residual_history"].is_array());
+    let solved: Vec<&String> = answer["rods"].as_object().expect("rods").keys().collect();
+    assert_eq!(solved, ["coarse"]);
+    assert_eq!(answer["rods"]["coarse"]["s"].as_array().map(Vec::len), Some(11));
+    let run = strands(&["solve", "too_fine.toml"]);
+    assert_eq!(run.code, 2);
+    assert!(run.out.contains("10 elements") && run.out.contains("failed: an error of"), "{}", run.out);
+}
+
+#[test]
 fn a_bad_scene_is_status_one_and_points_at_the_line() {
     let run = strands(&["solve", "misspelt.toml", "--json"]);
     assert_eq!((run.code, run.out.as_str()), (1, ""));

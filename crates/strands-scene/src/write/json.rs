@@ -44,18 +44,18 @@ pub fn json(model: &Model, solutions: &[(&str, &Solution)], solve_seconds: Optio
     if let Some(seconds) = solve_seconds {
         answer.insert("solve_seconds".into(), value!(seconds));
     }
-    let rods: Map<String, Value> =
-        solved.iter().map(|solved| (solved.rod.name.clone(), value!(rod(solved)))).collect();
-    answer.insert("rods".into(), Value::Object(rods));
+    answer.insert("rods".into(), rods(&solved));
     Value::Object(answer).to_string()
 }
 
-/// The answer of a solve that failed, one JSON object: the rod, why, and how far it got. No shape is given, since none is right.
+/// The answer of a solve that failed, one JSON object: the rod, why, and how far it got, and in `rods` those that were solved before it. Of
+/// the failed rod no shape is given, since none is right.
 pub fn failure_json(
     model: &Model,
     rod: &str,
     reason: &dyn Display,
     report: &SolveReport,
+    solutions: &[(&str, &Solution)],
     solve_seconds: Option<f64>,
 ) -> String {
     let mut answer = head(model, "failed", Some(report.method));
@@ -67,6 +67,7 @@ pub fn failure_json(
     if let Some(seconds) = solve_seconds {
         answer.insert("solve_seconds".into(), value!(seconds));
     }
+    answer.insert("rods".into(), rods(&Solved::all(model, solutions)));
     Value::Object(answer).to_string()
 }
 
@@ -82,6 +83,10 @@ fn head(model: &Model, status: &str, method: Option<Method>) -> Map<String, Valu
 fn common_method<'a>(mut reports: impl Iterator<Item = &'a SolveReport>) -> Option<Method> {
     let first = reports.next()?.method;
     reports.all(|report| report.method == first).then_some(first)
+}
+
+fn rods(solved: &[Solved]) -> Value {
+    Value::Object(solved.iter().map(|solved| (solved.rod.name.clone(), value!(rod(solved)))).collect())
 }
 
 fn rod<'a>(solved: &Solved<'a>) -> RodAnswer<'a> {

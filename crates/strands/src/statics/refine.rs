@@ -64,6 +64,8 @@ pub enum RefineError {
         elements: usize,
         /// The tolerance asked for.
         tolerance: f64,
+        /// The problem on the last mesh, with its solution: an equilibrium, but not within the tolerance.
+        nearest: Box<Refined>,
     },
 }
 
@@ -93,8 +95,9 @@ where
     let mut blocks: Vec<f64> = spans.iter().flat_map(|&(from, to)| evenly(from, to, FIRST_BLOCKS)).collect();
     let mut workspace = Workspace::default();
     let (mut half_guess, mut guess): (Option<Guess>, Option<Guess>) = (None, None);
-    let mut last = (f64::INFINITY, 0);
-    for _ in 0..MAX_ROUNDS {
+    let mut round = 0;
+    loop {
+        round += 1;
         let mut on =
             |elements: usize, guess: &mut Option<Guess>| -> Result<(Problem, Solution), RefineError> {
                 let pieces: Vec<(f64, usize)> = blocks.iter().map(|&end| (end, elements)).collect();
@@ -115,18 +118,23 @@ where
             .map(|i| size(&half.poses[i * BLOCK / 2].between(&solution.poses[i * BLOCK]).log(), length))
             .fold(0.0, f64::max)
             / gained;
+        let found = Refined { problem, solution, settings, estimated_error: error };
         if error <= tolerance {
-            return Ok(Refined { problem, solution, settings, estimated_error: error });
+            return Ok(found);
         }
-        last = (error, problem.rod.elements());
-        let densities = densities(&blocks, &half.poses, &solution.poses, length, power);
+        let densities = densities(&blocks, &half.poses, &found.solution.poses, length, power);
         let factor = (error / (AIM * tolerance)).powf(1.0 / f64::from(power));
         blocks = remeshed(&spans, &blocks, &densities, factor.min(MAX_GROWTH), power);
-        if blocks.len() * BLOCK > max_elements {
-            break;
+        if blocks.len() * BLOCK > max_elements || round == MAX_ROUNDS {
+            let elements = found.problem.rod.elements();
+            return Err(RefineError::TooFine {
+                reached: error,
+                elements,
+                tolerance,
+                nearest: Box::new(found),
+            });
         }
     }
-    Err(RefineError::TooFine { reached: last.0, elements: last.1, tolerance })
 }
 
 fn size(x: &Vec6, length: f64) -> f64 {
