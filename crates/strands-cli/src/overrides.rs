@@ -1,7 +1,7 @@
 //! Changes to a scene from the command line, made in the scene's text: so they pass the same checks as what stands in the file, and
 //! what is said of them is said of a line that can be read.
 
-use toml_edit::{DocumentMut, Item, Table, Value};
+use toml_edit::{DocumentMut, Item, Key, Table, Value};
 
 use crate::args::{MethodName, Overrides};
 
@@ -29,7 +29,7 @@ pub fn apply(text: &str, is_json: bool, overrides: &Overrides) -> Result<String,
     Ok(scene.to_string())
 }
 
-/// A dotted key, cut at its dots, and the value for it.
+/// A dotted key in its parts, and the value for it.
 type Change = (Vec<String>, Value);
 
 /// The changes to single keys, those with a flag of their own first.
@@ -52,22 +52,28 @@ fn changes(overrides: &Overrides) -> Result<Vec<Change>, String> {
         changes.push(solver("tolerance", tolerance.into()));
     }
     for change in &overrides.set {
-        let (key, value) = change
-            .split_once('=')
-            .filter(|(key, _)| !key.trim().is_empty())
-            .ok_or_else(|| format!("--set {change}: write KEY=VALUE, such as rods.thread.length=0.2"))?;
+        let (key, value) = key_and_value(change).ok_or_else(|| {
+            format!(
+                "--set {change}: write KEY=VALUE, such as rods.thread.length=0.2; a name with other signs than letters, digits, - and _ \
+                 stands in quotes, as in 'rods.\"my thread\".length=0.2'"
+            )
+        })?;
         // What is no TOML value is a word: --set solver.method=shooting needs no quotes.
         let value = value.trim().parse().unwrap_or_else(|_| Value::from(value.trim()));
-        changes.push((parts(key).map_err(|error| format!("--set {change}: {error}"))?, value));
+        changes.push((key, value));
     }
     Ok(changes)
 }
 
-/// The parts of a dotted key, quoted where they need it; places of an array as `supports.1` or, as messages have them, `supports[1]`.
-fn parts(key: &str) -> Result<Vec<String>, String> {
-    let dotted = key.replace('[', ".").replace(']', "");
-    let keys = toml_edit::Key::parse(&dotted).map_err(|error| error.message().to_owned())?;
-    Ok(keys.iter().map(|key| key.get().to_owned()).collect())
+/// A change cut at the first `=` that ends a key: one in quotes may hold others, and dots. A place of an array is `supports.1` or, as messages
+/// have it, `supports[1]`.
+fn key_and_value(change: &str) -> Option<(Vec<String>, &str)> {
+    change.match_indices('=').find_map(|(at, _)| {
+        let key = change[..at].trim();
+        let in_dots = || Key::parse(&key.replace('[', ".").replace(']', ""));
+        let parts = Key::parse(key).or_else(|_| in_dots()).ok()?;
+        Some((parts.iter().map(|part| part.get().to_owned()).collect(), &change[at + 1..]))
+    })
 }
 
 fn in_toml(scene: &mut DocumentMut, changes: &[Change], elements: Option<usize>) -> Result<(), String> {
@@ -208,7 +214,24 @@ at = \"start\"
     }
 
     #[test]
-    fn a_change_without_a_value_is_an_error() {
-        assert!(apply(SCENE, false, &set(&["length"])).is_err());
+    fn a_key_in_quotes_is_one_name_whatever_is_in_it() {
+        for key in ["rods.\"thread\".length", " rods . 'thread' . length "] {
+            let text = apply(SCENE, false, &set(&[&format!("{key}=0.2")])).unwrap();
+            assert!(text.contains("length = 0.2 # m"), "{key}: {text}");
+        }
+        let odd = SCENE.replace("thread", "\"a.b = c\"");
+        let text = apply(&odd, false, &set(&["rods.\"a.b = c\".length=0.2"])).unwrap();
+        assert!(text.contains("length = 0.2 # m"), "{text}");
+        let json = apply(r#"{"rods": {}}"#, true, &set(&["rods.\"a.b\".length=0.2"])).unwrap();
+        let scene: serde_json::Value = serde_json::from_str(&json).unwrap();
+        assert_eq!(scene["rods"]["a.b"]["length"], 0.2);
+    }
+
+    #[test]
+    fn a_change_without_a_key_or_a_value_is_an_error() {
+        for change in ["length", "=0.2", "rods.\"thread.length=0.2", "rods..length=0.2"] {
+            let said = apply(SCENE, false, &set(&[change])).unwrap_err();
+            assert!(said.contains("KEY=VALUE"), "{change}: {said}");
+        }
     }
 }
