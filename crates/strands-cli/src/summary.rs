@@ -4,11 +4,15 @@ use std::fmt::Write;
 
 use anstyle::{AnsiColor, Style};
 use strands::math::{Pose, Vec3};
+use strands::rod::{Rod, Scale};
 use strands::statics::Solution;
 
 use crate::drawing::draw;
 use crate::solve::{FailedRod, Outcome, SolvedRod};
 use crate::units::engineering;
+
+/// What a number must exceed, as a part of the largest of its kind, to be more than round-off.
+const ROUND_OFF: f64 = 1e-11;
 
 /// The summary of a scene: a picture, then for each rod what was found and how.
 pub fn summary(outcome: &Outcome, colour: bool) -> String {
@@ -20,8 +24,8 @@ pub fn summary(outcome: &Outcome, colour: bool) -> String {
         if several {
             let _ = writeln!(out, "\n{}", paint.with(Style::new().bold(), &rod.name));
         }
-        let order = outcome.model.rod(&rod.name).map_or(0, |rod| rod.problem.rod.order().as_number());
-        for (what, value) in rows(rod, order) {
+        let of_model = outcome.model.rod(&rod.name).map(|rod| &rod.problem.rod);
+        for (what, value) in of_model.map_or_else(Vec::new, |of_model| rows(rod, of_model)) {
             let _ = writeln!(out, "  {what:<9} {value}");
         }
         let (style, verdict) = verdict(&rod.solution);
@@ -64,22 +68,20 @@ fn picture(outcome: &Outcome, paint: Paint) -> String {
         let _ =
             writeln!(out, "{}", format!("  {}", paint.with(AnsiColor::Cyan.on_default(), line)).trim_end());
     }
-    let _ = writeln!(
-        out,
-        "  {} wide, {} high{of_what}\n",
-        engineering(drawing.width, "m"),
-        engineering(drawing.height, "m")
-    );
+    let size = drawing.width.max(drawing.height);
+    let side = |length: f64| engineering(settled(length, size), "m");
+    let _ = writeln!(out, "  {} wide, {} high{of_what}\n", side(drawing.width), side(drawing.height));
     out
 }
 
-fn rows(rod: &SolvedRod, order: usize) -> Vec<(&'static str, String)> {
-    let solution = &rod.solution;
+fn rows(rod: &SolvedRod, of_model: &Rod) -> Vec<(&'static str, String)> {
+    let (solution, order) = (&rod.solution, of_model.order().as_number());
     let report = &solution.report;
+    let scale = magnitudes(solution, of_model);
     let mut rows = Vec::new();
     if let Some(tip) = solution.poses.last() {
         let wxyz = tip.orientation().to_wxyz().map(|x| without_minus_zero(format!("{x:.4}"))).join(", ");
-        rows.push(("end", format!("at {}", triple(tip.position, "m"))));
+        rows.push(("end", format!("at {}", triple(each_settled(tip.position, scale.length), "m"))));
         rows.push(("", format!("orientation [{wxyz}]")));
     }
     for reaction in &solution.reactions {
@@ -88,10 +90,12 @@ fn rows(rod: &SolvedRod, order: usize) -> Vec<(&'static str, String)> {
             continue;
         }
         rows.push(("support", format!("at s = {}", engineering(reaction.s, "m"))));
-        rows.push(("", format!("force  {}", sized(reaction.force, "N"))));
-        rows.push(("", format!("moment {}", sized(reaction.moment, "N·m"))));
+        rows.push(("", format!("force  {}", sized(each_settled(reaction.force, scale.force), "N"))));
+        rows.push(("", format!("moment {}", sized(each_settled(reaction.moment, scale.moment), "N·m"))));
     }
-    let (elastic, load) = (engineering(solution.energy.elastic, "J"), engineering(solution.energy.load, "J"));
+    // The elastic energy is of second order in the strain, and so is its round-off.
+    let elastic = engineering(settled(solution.energy.elastic, scale.moment * ROUND_OFF), "J");
+    let load = engineering(settled(solution.energy.load, scale.force * scale.length), "J");
     rows.push(("energy", format!("{elastic} elastic, {load} of the loads")));
     rows.push((
         "solver",
@@ -105,6 +109,25 @@ fn rows(rod: &SolvedRod, order: usize) -> Vec<(&'static str, String)> {
         ),
     ));
     rows
+}
+
+/// The largest lengths, moments and forces about a solved rod, its own stiffness among them.
+fn magnitudes(solution: &Solution, rod: &Rod) -> Scale {
+    let own = rod.scale();
+    let length = solution.poses.iter().fold(own.length, |most, pose| most.max(pose.position.max_abs()));
+    let force = solution.reactions.iter().fold(own.force, |most, reaction| most.max(reaction.force.norm()));
+    let moment =
+        solution.reactions.iter().fold(own.moment, |most, reaction| most.max(reaction.moment.norm()));
+    Scale { length, force, moment: moment.max(force * own.length) }
+}
+
+/// A number, or zero where it is no more than round-off of that magnitude.
+fn settled(x: f64, magnitude: f64) -> f64 {
+    if x.abs() <= ROUND_OFF * magnitude { 0.0 } else { x }
+}
+
+fn each_settled(v: Vec3, magnitude: f64) -> Vec3 {
+    Vec3::new(settled(v.x, magnitude), settled(v.y, magnitude), settled(v.z, magnitude))
 }
 
 fn verdict(solution: &Solution) -> (Style, &'static str) {

@@ -35,6 +35,20 @@ fn a_solve_is_summed_up_for_people() {
 }
 
 #[test]
+fn what_is_below_round_off_is_printed_as_zero() {
+    // Straight down, but for the last bits of half a turn.
+    let run = strands(&["solve", "vertical.toml"]);
+    assert_eq!((run.code, run.err.as_str()), (0, ""));
+    let line = |word: &str| {
+        let line = run.out.lines().find(|line| line.contains(word)).unwrap_or_default();
+        line.split_whitespace().collect::<Vec<_>>().join(" ")
+    };
+    assert_eq!(line(" wide"), "0 m wide, 300.0 mm high");
+    assert_eq!(line("moment"), "moment 0 N·m (0, 0, 0) N·m");
+    assert_eq!(line("energy"), "energy 0 J elastic, -96.10 mJ of the loads");
+}
+
+#[test]
 fn json_is_one_object_with_what_was_promised() {
     let run = strands(&["solve", "cantilever.toml", "--json"]);
     assert_eq!((run.code, run.err.as_str()), (0, ""));
