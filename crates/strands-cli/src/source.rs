@@ -3,7 +3,7 @@
 use std::io::Read;
 use std::path::{Path, PathBuf};
 
-use strands_scene::Scene;
+use strands_scene::{Scene, SceneError, SceneFile};
 
 use crate::{Failure, colour_err};
 
@@ -26,6 +26,22 @@ impl Source {
     pub fn parse(&self) -> Result<Scene, Failure> {
         Scene::parse(&self.text, &self.file_name, self.folder.as_deref())
             .map_err(|error| Failure::Bad(error.render(colour_err())))
+    }
+
+    /// The text for a reader who has not the scene's folder: with the tables that it names written in. Without any it is as it was.
+    ///
+    /// # Errors
+    /// What is wrong, with the line, the key and a mend.
+    pub fn self_contained(&self) -> Result<String, Failure> {
+        let bad = |error: SceneError| Failure::Bad(error.render(colour_err()));
+        let as_written = SceneFile::parse(&self.text, &self.file_name).map_err(bad)?;
+        let folder = self.folder.as_deref();
+        let whole = SceneFile::parse_with_tables(&self.text, &self.file_name, folder).map_err(bad)?;
+        Ok(match whole == as_written {
+            true => self.text.clone(),
+            false if self.is_json() => whole.to_json(),
+            false => whole.to_toml(),
+        })
     }
 
     /// Whether the text is JSON.

@@ -20,10 +20,11 @@ pub fn run(options: &View) -> Result<(), Failure> {
     if !page::exists() {
         return Err(Failure::bad("the page is not part of this program: `cargo xtask web` builds it"));
     }
-    let scene = options.scene.as_deref().map(source::read).transpose()?;
-    if let Some(scene) = &scene {
+    let mut scene = options.scene.as_deref().map(source::read).transpose()?;
+    if let Some(scene) = &mut scene {
         // Said here, where there is a terminal, rather than in the page.
         scene.parse()?;
+        scene.text = scene.self_contained()?;
     }
     let server = bind(options.port)?;
     let address = server.server_addr().to_ip().map(|address| format!("http://{address}/"));

@@ -74,6 +74,17 @@ impl SceneFile {
     pub fn parse(text: &str, file_name: &str) -> Result<Self, SceneError> {
         written(text, file_name).map(|(_, file)| file)
     }
+
+    /// The same, with the tables that the scene names read from `folder` and written into it, so that it can be read where that folder is
+    /// not.
+    ///
+    /// # Errors
+    /// As [`SceneFile::parse`], and where a table cannot be read.
+    pub fn parse_with_tables(text: &str, file_name: &str, folder: Option<&Path>) -> Result<Self, SceneError> {
+        let (document, mut file) = written(text, file_name)?;
+        build::write_in(&document, &mut file, folder)?;
+        Ok(file)
+    }
 }
 
 fn written(text: &str, file_name: &str) -> Result<(Document, SceneFile), SceneError> {

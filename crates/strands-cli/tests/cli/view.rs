@@ -5,7 +5,9 @@ use std::net::TcpStream;
 use std::path::Path;
 use std::process::{Child, Stdio};
 
-use crate::common::{command, strands};
+use strands_scene::Scene;
+
+use crate::common::{command, folder, strands};
 
 /// A running server, ended with the test.
 struct Served {
@@ -69,6 +71,27 @@ fn the_page_and_the_scene_are_served_and_nothing_else() {
     for path in ["/scene.json", "/absent.js", "/../package.json", "/%2e%2e/package.json", "//etc/passwd"] {
         assert!(served.get(path).0.starts_with("HTTP/1.1 404"), "{path}");
     }
+}
+
+#[test]
+fn a_scene_that_names_a_table_is_served_with_the_table_in_it() {
+    if !page_is_built() {
+        return;
+    }
+    let folder = folder("tables");
+    std::fs::write(folder.join("points.csv"), "x,y,z\n0,0,0\n0,0.01,0.1\n0,0.04,0.2\n").expect("a table");
+    let scene = r#"
+        format = 1
+        name = "tables"
+        [rods.arc]
+        stiffness = { bending = [1e-4, 1e-4], torsion = 1e-4, axial = 1e3, shear = [1e3, 1e3] }
+        rest = { csv = "points.csv" }
+        supports = [{ at = "start", fix = ["position", "orientation"] }]
+    "#;
+    std::fs::write(folder.join("scene.toml"), scene).expect("a scene");
+    let served = Served::start(&folder.join("scene.toml").display().to_string());
+    let text = String::from_utf8(served.get("/scene.toml").1).expect("UTF-8");
+    Scene::parse(&text, "scene.toml", None).unwrap_or_else(|error| panic!("{error}"));
 }
 
 #[test]

@@ -9,6 +9,8 @@ mod rod;
 mod settings;
 mod table;
 
+pub(crate) use table::write_in;
+
 use crate::document::{Document, KeyPath};
 use crate::error::SceneError;
 use crate::file::SceneFile;

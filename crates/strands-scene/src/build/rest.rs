@@ -54,7 +54,7 @@ pub(super) fn unloaded(context: &Context, path: &KeyPath, rod: &RodFile) -> Resu
         (rest.key("points"), Written::Points(points.iter().map(|point| Vec3::from(*point)).collect()))
     } else {
         let file = written.csv.as_deref().unwrap_or_default();
-        (rest.key("csv"), table::read(context, &rest.key("csv"), file)?)
+        (rest.key("csv"), table::read(document, context.folder, &rest.key("csv"), file)?)
     };
     match written {
         Written::Points(points) => along_points(context, path, &place, &points, length),

@@ -1,18 +1,48 @@
 //! Rest shapes from CSV files: a header line `x,y,z` (points, m) or `s,kappa1,kappa2,tau` (places, m, with curvature and twist, 1/m).
 
-use super::Context;
 use super::rest::Written;
-use crate::document::KeyPath;
+use crate::document::{Document, KeyPath};
 use crate::error::SceneError;
+use crate::file::{RestFile, RestSample, SceneFile};
+use std::path::Path;
 use strands::math::Vec3;
 
 const POINTS: [&str; 3] = ["x", "y", "z"];
 const SAMPLES: [&str; 4] = ["s", "kappa1", "kappa2", "tau"];
 
+/// Puts the tables that a scene names into it, in place of their names.
+pub(crate) fn write_in(
+    document: &Document,
+    file: &mut SceneFile,
+    folder: Option<&Path>,
+) -> Result<(), SceneError> {
+    for (rod, written) in &mut file.rods {
+        let Some(rest) = &mut written.rest else { continue };
+        let Some(name) = rest.csv.take() else { continue };
+        let path = KeyPath::of("rods").key(rod).key("rest").key("csv");
+        *rest = match read(document, folder, &path, &name)? {
+            Written::Points(points) => {
+                let points = points.iter().map(|point| point.to_array()).collect();
+                RestFile { points: Some(points), ..RestFile::default() }
+            }
+            Written::Samples(samples) => {
+                let sample = |(s, curvature): (f64, Vec3)| RestSample { s, curvature: curvature.to_array() };
+                let samples = samples.into_iter().map(sample).collect();
+                RestFile { samples: Some(samples), ..RestFile::default() }
+            }
+        };
+    }
+    Ok(())
+}
+
 /// Reads a table that lies beside the scene.
-pub(super) fn read(context: &Context, path: &KeyPath, name: &str) -> Result<Written, SceneError> {
-    let document = context.document;
-    let Some(folder) = context.folder else {
+pub(super) fn read(
+    document: &Document,
+    folder: Option<&Path>,
+    path: &KeyPath,
+    name: &str,
+) -> Result<Written, SceneError> {
+    let Some(folder) = folder else {
         let error =
             document.error(path, format!("cannot read {name}: this scene has no folder to find it in"));
         return Err(error.mend("give the shape in the scene itself, as `points` or `samples`"));
