@@ -207,7 +207,7 @@ at = \"start\"
     #[test]
     fn json_is_changed_alike() {
         let json = r#"{"rods": {"thread": {"length": 0.3, "supports": [{"at": "start"}]}}}"#;
-        let changes = set(&["rods.thread.supports.0.at=end", "gravity=[0, 0, -1]"]);
+        let changes = set(&["rods.thread.supports[0].at=end", "gravity=[0, 0, -1]"]);
         let scene: serde_json::Value = serde_json::from_str(&apply(json, true, &changes).unwrap()).unwrap();
         assert_eq!(scene["rods"]["thread"]["supports"][0]["at"], "end");
         assert_eq!(scene["gravity"][2], -1);
