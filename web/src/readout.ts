@@ -16,13 +16,14 @@ export interface Verdict {
 
 /** What a report comes to. */
 export function judge(report: Report): Verdict {
+  const away = report.beyond > 0 ? `out of reach by ${(1e3 * report.beyond).toFixed(1)} mm` : null
+  // How the way to it ends is not known yet, but how far the hand is away is.
+  if (report.settling) return away ? { kind: 'away', badge: away, advice: null } : { kind: 'following', badge: 'following …', advice: null }
   if (report.status === 'failed') {
     const advice = 'No equilibrium was found here, and the last good shape stays. Bring the hand back a little, or turn it another way.'
-    return { kind: 'failed', badge: 'failed', advice }
+    return { kind: 'failed', badge: away ? `failed, ${away}` : 'failed', advice }
   }
-  if (report.beyond > 0) {
-    return { kind: 'away', badge: `out of reach by ${(1e3 * report.beyond).toFixed(1)} mm`, advice: null }
-  }
+  if (away) return { kind: 'away', badge: away, advice: null }
   if (report.morse_index === null) return { kind: 'converged', badge: 'converged', advice: null }
   if (report.morse_index === 0) return { kind: 'stable', badge: 'stable', advice: null }
   return { kind: 'unstable', badge: 'unstable', advice: null }
@@ -59,9 +60,9 @@ export class Readout {
     }
     for (const [id, text] of Object.entries(texts)) document.getElementById(id)!.textContent = text
     this.plot.add(force, torque)
-    // While the worker is on its way the verdict waits; where that is seen, it is said.
-    if (!report.settling) this.say(judge(report))
-    else if (!solved) this.say({ kind: 'following', badge: 'following …' })
+    const verdict = judge(report)
+    // Most ways are too short to be seen.
+    if (verdict.kind !== 'following' || !solved) this.say(verdict)
   }
 
   say(verdict: Pick<Verdict, 'kind' | 'badge'>): void {

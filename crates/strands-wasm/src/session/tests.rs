@@ -253,3 +253,15 @@ fn the_rod_in_the_hand_stays_the_one_that_it_is_when_an_edited_scene_has_the_rod
     assert_eq!(names(&state), ["still"]);
     assert!(state.report().contains(r#""rod":"held""#), "{}", state.report());
 }
+
+#[test]
+fn a_hand_that_jumped_out_of_reach_is_given_up_without_a_start_from_rest_which_is_kept_for_one_within() {
+    let mut state = suture();
+    state.hand.position = Vec3::new(0.9, 0.0, 0.06);
+    go(&mut state);
+    assert!(state.beyond() > 0.5 && state.outcome.reason.is_some(), "{}", state.report());
+    assert!(!state.stuck);
+    state.hand.position = Vec3::new(0.1, 0.0, 0.06);
+    go(&mut state);
+    assert!(state.outcome.reason.is_none(), "{}", state.report());
+}
