@@ -108,3 +108,6 @@ fn limit(v: Vec3, max: f64) -> (Vec3, Mat3) {
     let unit = v * (1.0 / norm);
     (unit * max, (Mat3::IDENTITY - Mat3::outer(unit, unit)).scaled(max / norm))
 }
+
+#[cfg(test)]
+mod tests;
