@@ -267,13 +267,18 @@ fn too_coarse(problem: &Problem, workspace: &Workspace) -> Option<FailureReason>
     let tension = workspace.record.wrenches.iter().fold(0.0, |max: f64, w| max.max(w.linear.norm()));
     let scale = rod.scale();
     let bending_length = scale.length * (scale.force / tension).sqrt();
-    (tension.is_finite() && bending_length < longest).then(|| FailureReason::TooCoarse {
+    let needed = (2.0 * scale.length / bending_length).ceil();
+    // A search that has gone wild leaves any tension behind.
+    (bending_length < longest && needed <= MOST_NEEDED).then_some(FailureReason::TooCoarse {
         tension,
         bending_length,
         element_length: longest,
-        needed: (2.0 * scale.length / bending_length).ceil() as usize,
+        needed: needed as usize,
     })
 }
+
+/// More elements than this are not advised.
+const MOST_NEEDED: f64 = 1e5;
 
 /// The state of a problem that is not tried: the guess, or the rod at rest, with its residual.
 fn nearest(
