@@ -11,7 +11,7 @@ use super::nodal::{Distance, Nodal};
 use super::problem::Problem;
 use super::shooting::{Outcome, Search, Workspace};
 use super::solution::{Guess, Method, Scheme, Settings, SolveReport};
-use super::stability::NEUTRAL;
+use super::stability::{NEUTRAL, strength};
 use crate::element;
 use crate::math::{Mat3, Pose, SimdLevel, Strain, Vec3, Wrench};
 use crate::rod::Order;
@@ -337,8 +337,7 @@ fn relax(
     let Workspace { record, nodal, simd, .. } = workspace;
     let simd: SimdLevel = *simd;
     // Where the loads are larger than what bends the rod, forces are of their size.
-    let carried = record.wrenches.iter().fold(0.0, |max: f64, w| max.max(w.linear.norm()));
-    let strength = 1.0 + load_size(problem) + carried / problem.rod.scale().force;
+    let strength = strength(problem, record);
     let lend = plan.lent / strength;
     let (mut drag, mut lent) = (plan.drag * strength, lend * MOST_SLACK);
     let mut last = f64::INFINITY;
@@ -350,7 +349,7 @@ fn relax(
         if residual <= settings.tolerance {
             // One Newton step more costs little and takes what is left down to round-off. It is against hardly any drag, and so shows whether
             // the rod rests only because nothing pushes it off a ridge.
-            let stable = nodal.solve(problem, simd, NEUTRAL, record);
+            let stable = nodal.solve(problem, simd, NEUTRAL * strength, record);
             report.factorisations += 1;
             if stable.is_none_or(|negative| negative == 0) {
                 if stable.is_some() && nodal.step_size() <= plan.stride {
@@ -391,7 +390,7 @@ fn relax(
             0.3 * (residual / last).clamp(0.1, 1.0) * drag
         };
         if drag < LEAST_DRAG * strength {
-            drag = NEUTRAL;
+            drag = NEUTRAL * strength;
         }
         last = residual;
     }
@@ -447,6 +446,10 @@ fn push_off(
 fn finish(problem: &Problem, record: &mut Record) {
     let rod = &problem.rod;
     record.poses.iter_mut().for_each(|pose| pose.rotation = renormalised(pose.rotation));
+    // What the end leaves free bears its loads to the last bit.
+    let last = rod.elements() - 1;
+    let end = EndState::from_guess(problem, &Guess::new(record.poses[last + 1], record.wrenches[last]));
+    record.wrenches[last] = end.section(problem).wrench;
     for e in (0..rod.elements() - 1).rev() {
         let node = e + 1;
         let pose = &record.poses[node];

@@ -5,15 +5,16 @@
 //! is the number of its negative pivots. In the limit of small elements the pivots that turn negative are the conjugate points of Manning,
 //! Rogers & Maddocks (1998, Proc. R. Soc. A 454:3047–3074).
 
+use super::march::Record;
 use super::problem::Problem;
 use super::shooting::Workspace;
-use crate::math::{Vec3, Vec6};
+use crate::math::{Vec3, Vec6, Wrench};
 
 /// What an inextensible, unshearable rod is given for this purpose alone, over `L³/EI` and in place of no compliance: its end then yields by
 /// this part of what it would yield by bending, and an eigenvalue changes its sign by that much too early.
-const RIGID_COMPLIANCE: f64 = 1e-8;
-/// An eigenvalue below this, over `EI/L³`, is none: the rod may be free to turn about an axis, and then round-off decides its sign.
-pub(crate) const NEUTRAL: f64 = 1e-5;
+const RIGID_COMPLIANCE: f64 = 1e-7;
+/// An eigenvalue below this, over `EI/L³` and the [`strength`], is none: the rod may be free to turn about an axis, and then round-off decides its sign.
+pub(crate) const NEUTRAL: f64 = 1e-4;
 
 /// The Morse index of the equilibrium recorded in the workspace. `None` where follower loads or dead moments act on what can move or turn, which
 /// have no potential, and where a pivot is singular.
@@ -23,7 +24,14 @@ pub(crate) fn morse_index(problem: &Problem, workspace: &mut Workspace) -> Optio
     }
     let Workspace { record, nodal, simd, .. } = workspace;
     nodal.linearise(problem, *simd, RIGID_COMPLIANCE, record)?;
-    nodal.solve(problem, *simd, NEUTRAL, record)
+    nodal.solve(problem, *simd, NEUTRAL * strength(problem, record), record)
+}
+
+/// The forces that act and that the rod carries, over `EI/L²`, and one for its own: what stiffnesses are measured by.
+pub(crate) fn strength(problem: &Problem, record: &Record) -> f64 {
+    let act = |loads: &[Wrench]| loads.iter().map(|load| load.linear.norm()).sum::<f64>();
+    let carried = record.wrenches.iter().fold(0.0, |max: f64, w| max.max(w.linear.norm()));
+    1.0 + (act(&problem.loads.world) + act(&problem.loads.body) + carried) / problem.rod.scale().force
 }
 
 /// Whether the loads have one: dead forces have, the rod's own energy and springs have, and what bears on a support does no work.
