@@ -244,9 +244,8 @@ pub(crate) fn resistance(
 ) -> Option<Resistance> {
     let (order, kinematics, h, points) =
         (rod.order(), rod.kinematics(), rod.element_length(e), rod.points(e));
-    let rest = core::array::from_fn(|i| points[i.min(points.len() - 1)].rest);
     *strain = solve_general(order, kinematics, h, points, w, *strain)
-        .or_else(|| solve_general(order, kinematics, h, points, w, rest))?;
+        .or_else(|| solve_general(order, kinematics, h, points, w, rod.rest_strains(e)))?;
     let gap = Pose::exp(exponent(order, h, strain)).between(relative).log();
     let lend = Mat6::diagonal(Vec6::new(Vec3::ZERO, Vec3::new(lent, lent, lent)));
     let factors = lu::<6>(flexibility(order, kinematics, h, points, w, strain)?.add(&lend).to_rows())?;

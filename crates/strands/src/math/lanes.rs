@@ -4,7 +4,7 @@
 //! instruction of the widest kind that the feature allows, and elsewhere into as many narrow ones as it takes. The
 //! arithmetic is the same in either case, so the results are the same bits.
 
-use super::Real;
+use super::{Real, Vec3, Vec6};
 use core::ops::{Add, AddAssign, Div, Mul, Neg, Sub, SubAssign};
 
 /// `N` numbers side by side.
@@ -102,5 +102,34 @@ impl<const N: usize> Real for Lanes<N> {
     #[inline(always)]
     fn map(self, function: impl Fn(f64) -> (f64, f64)) -> Self {
         Self::from_fn(|i| function(self.0[i]).0)
+    }
+}
+
+impl<const N: usize> Vec3<Lanes<N>> {
+    /// Puts a vector into one lane.
+    #[inline(always)]
+    pub(crate) fn put(&mut self, i: usize, v: Vec3) {
+        (self.x.0[i], self.y.0[i], self.z.0[i]) = (v.x, v.y, v.z);
+    }
+
+    /// The vector in one lane.
+    #[inline(always)]
+    pub(crate) fn lane(&self, i: usize) -> Vec3 {
+        Vec3::new(self.x.0[i], self.y.0[i], self.z.0[i])
+    }
+}
+
+impl<const N: usize> Vec6<Vec3<Lanes<N>>> {
+    /// Puts a pair into one lane.
+    #[inline(always)]
+    pub(crate) fn put(&mut self, i: usize, v: Vec6) {
+        self.angular.put(i, v.angular);
+        self.linear.put(i, v.linear);
+    }
+
+    /// The pair in one lane.
+    #[inline(always)]
+    pub(crate) fn lane(&self, i: usize) -> Vec6 {
+        Vec6::new(self.angular.lane(i), self.linear.lane(i))
     }
 }

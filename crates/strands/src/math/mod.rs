@@ -34,5 +34,17 @@ pub use vec3::Vec3;
 pub use vec6::{Strain, Stress, Vec6, Wrench};
 pub use vector::Vector;
 
+/// The larger of two numbers; NaN where either is, which [`f64::max`] would pass over.
+#[inline(always)]
+pub(crate) fn larger(a: f64, b: f64) -> f64 {
+    if a > b || a.is_nan() { a } else { b }
+}
+
+/// The largest magnitude; NaN where any is.
+#[inline(always)]
+pub(crate) fn largest(values: &[f64; 6]) -> f64 {
+    values.iter().map(|x| x.abs()).fold(0.0, larger)
+}
+
 #[cfg(test)]
 mod tests;

@@ -306,6 +306,12 @@ impl Rod {
         &self.points[element * n..(element + 1) * n]
     }
 
+    /// The rest strains at the places of an element; where there is but one, twice the same.
+    pub(crate) fn rest_strains(&self, element: usize) -> PointStrains {
+        let points = self.points(element);
+        [points[0].rest, points[points.len() - 1].rest]
+    }
+
     /// All points, packed for the fast kernels, where every law is diagonal.
     pub(crate) fn diagonal_points(&self) -> Option<&[DiagonalPoint]> {
         self.diagonal.as_deref()
@@ -333,8 +339,7 @@ impl Rod {
         let mut poses = Vec::with_capacity(self.elements() + 1);
         poses.push(pose);
         for e in 0..self.elements() {
-            let points = self.points(e);
-            let strain: PointStrains = [points[0].rest, points[points.len() - 1].rest];
+            let strain = self.rest_strains(e);
             pose = pose.compose(&Pose::exp(exponent(self.order, self.element_length(e), &strain)));
             poses.push(pose);
         }

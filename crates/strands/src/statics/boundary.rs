@@ -11,7 +11,7 @@ use super::march::{Section, turned};
 use super::problem::{End, Problem};
 use super::solution::Guess;
 use super::variation::{Columns, Variation, turned_by};
-use crate::math::{Mat3, Pose, Quat, Vec3, Vec6, Wrench, tangent, tangent_inverse};
+use crate::math::{Mat3, Mat6, Pose, Quat, Vec3, Vec6, Wrench, tangent, tangent_inverse};
 use crate::rod::Scale;
 
 /// The end of a rod, with its reaction: force in world axes, moment by the turns of the fixed frame.
@@ -303,7 +303,7 @@ pub(crate) fn residual_slope(problem: &Problem, start: &Section, columns: &Colum
 
 /// The displacements, as variations of the frame seen from the axes that it is given in, that an end leaves free, one a column; the columns of
 /// those that it fixes are zero.
-pub(crate) fn displacements(end: &End, pose: &Pose) -> crate::math::Mat6 {
+pub(crate) fn displacements(end: &End, pose: &Pose) -> Mat6 {
     let turn = match end.turns() {
         Turns::Mixed => pose.rotation * so3_tangent(end.turn_of(pose)),
         _ => pose.rotation,
@@ -317,15 +317,15 @@ pub(crate) fn displacements(end: &End, pose: &Pose) -> crate::math::Mat6 {
             Vec6::new(Vec3::ZERO, unit(k - 3)).to_array()
         };
     }
-    crate::math::Mat6::from_rows(&rows).transpose()
+    Mat6::from_rows(&rows).transpose()
 }
 
 /// How the wrench on the displacements that an end leaves free changes with each of them while the wrench itself does not, negative: the part that
 /// the hold adds to the stiffness against them. By central differences, and only where an end is held in some freedoms and free in others.
-pub(crate) fn displacements_slope(end: &End, pose: &Pose, wrench: Wrench) -> crate::math::Mat6 {
+pub(crate) fn displacements_slope(end: &End, pose: &Pose, wrench: Wrench) -> Mat6 {
     let mut rows = [[0.0; 6]; 6];
     if end.fixed.iter().all(|fixed| *fixed == end.fixed[0]) {
-        return crate::math::Mat6::ZERO;
+        return Mat6::ZERO;
     }
     let free = displacements(end, pose).transpose().to_rows();
     let step = 1e-5;
@@ -340,5 +340,5 @@ pub(crate) fn displacements_slope(end: &End, pose: &Pose, wrench: Wrench) -> cra
         };
         rows[k] = ((at(1.0) - at(-1.0)) * (-0.5 / step)).to_array();
     }
-    crate::math::Mat6::from_rows(&rows).transpose()
+    Mat6::from_rows(&rows).transpose()
 }

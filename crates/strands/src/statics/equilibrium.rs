@@ -67,12 +67,7 @@ pub(crate) fn from_rest(
 ) -> Search {
     let mild = Mild::new(problem);
     let outcome = if mild.is_it() {
-        let laid_out = laid_out(problem, settings, &PLANS, workspace, report);
-        if laid_out == Outcome::Converged {
-            laid_out
-        } else {
-            by_degrees(problem, &mild, settings, workspace, report)
-        }
+        laid_out(problem, settings, workspace, report)
     } else {
         by_degrees(problem, &mild, settings, workspace, report)
     };
@@ -83,26 +78,24 @@ pub(crate) fn from_rest(
 fn laid_out(
     problem: &Problem,
     settings: &Settings,
-    plans: &[Plan],
     workspace: &mut Workspace,
     report: &mut SolveReport,
 ) -> Outcome {
     let rod = &problem.rod;
     let mut outcome = Outcome::Stalled;
-    for plan in plans {
+    for plan in &PLANS {
         let record = &mut workspace.record;
         record.fit(rod.elements());
         record.wrenches.fill(Wrench::ZERO);
-        let mut along = Vec::with_capacity(rod.elements());
+        record.poses[0] = rod.description().base;
+        let bend = Strain::new(plan.bend * (1.0 / rod.length()), Vec3::ZERO);
         for e in 0..rod.elements() {
-            let points = rod.points(e);
-            let bend = Strain::new(plan.bend * (1.0 / rod.length()), Vec3::ZERO);
-            let rest = core::array::from_fn(|i| points[i.min(points.len() - 1)].rest);
-            record.strains[e] = rest;
-            let bent = rest.map(|strain| strain + bend);
-            along.push(Pose::exp(element::exponent(rod.order(), rod.element_length(e), &bent)));
+            record.strains[e] = rod.rest_strains(e);
+            let bent = record.strains[e].map(|strain| strain + bend);
+            let relative = Pose::exp(element::exponent(rod.order(), rod.element_length(e), &bent));
+            record.poses[e + 1] = record.poses[e].compose(&relative);
         }
-        lay_out(problem, &along, rod.description().base, &mut record.poses);
+        put_between_supports(problem, &mut record.poses);
         outcome = relax(problem, settings, plan, workspace, report);
         if outcome == Outcome::Converged {
             break;
@@ -124,10 +117,12 @@ struct Mild {
 const HARD_LOAD: f64 = 100.0;
 /// Less length to spare than this part of the length is hard.
 const HARD_SPARE: f64 = 0.05;
+/// Less than this is none: the rod has to stretch.
+const LEAST_SPARE: f64 = 1e-9;
 
 impl Mild {
     fn new(problem: &Problem) -> Self {
-        let load = (HARD_LOAD / load_size(problem)).min(1.0);
+        let load = (HARD_LOAD / problem.load_size()).min(1.0);
         let held = |end: &super::End| end.fixed[3..] == [true; 3];
         let apart = (problem.end.pose.position - problem.start.pose.position).norm() / problem.rod.length();
         let hard_spare = if held(&problem.start) && held(&problem.end) { 1.0 - apart } else { 1.0 };
@@ -139,7 +134,8 @@ impl Mild {
         self.load >= 1.0 && self.hard_spare >= HARD_SPARE
     }
 
-    /// The problem at a place on the way from the mild to the hard one. Both loads and what there is to spare change by equal factors in equal steps.
+    /// The problem at a place on the way from the mild to the hard one. The loads change by equal factors in equal steps, and
+    /// so does what there is to spare, where the hard problem has any.
     fn set(&self, problem: &Problem, at: f64, family: &mut Problem) {
         let load = self.load.powf(1.0 - at);
         let scale = |now: &mut [Wrench], whole: &[Wrench]| {
@@ -147,21 +143,17 @@ impl Mild {
         };
         scale(&mut family.loads.world, &problem.loads.world);
         scale(&mut family.loads.body, &problem.loads.body);
-        let least = 1e-9;
-        let spare = if at >= 1.0 || self.spare <= self.hard_spare {
-            self.hard_spare
-        } else if self.hard_spare > least {
-            self.spare.powf(1.0 - at) * self.hard_spare.powf(at)
-        } else {
-            self.spare + (self.hard_spare - self.spare) * at
-        };
         let (start, end) = (problem.start.pose.position, problem.end.pose.position);
-        if self.spare > self.hard_spare {
-            family.end.pose.position = start + (end - start) * ((1.0 - spare) / (1.0 - self.hard_spare));
-        }
-        if at >= 1.0 {
-            family.end.pose = problem.end.pose;
-        }
+        family.end.pose.position = if at >= 1.0 || self.spare <= self.hard_spare {
+            end
+        } else {
+            let spare = if self.hard_spare > LEAST_SPARE {
+                self.spare.powf(1.0 - at) * self.hard_spare.powf(at)
+            } else {
+                self.spare + (self.hard_spare - self.spare) * at
+            };
+            start + (end - start) * ((1.0 - spare) / (1.0 - self.hard_spare))
+        };
     }
 }
 
@@ -175,7 +167,7 @@ fn by_degrees(
 ) -> Outcome {
     let mut family = problem.clone();
     mild.set(problem, 0.0, &mut family);
-    let mut outcome = laid_out(&family, settings, &PLANS, workspace, report);
+    let mut outcome = laid_out(&family, settings, workspace, report);
     let (mut at, mut step) = (0.0, 0.25);
     let mut reached = workspace.record.clone();
     while outcome == Outcome::Converged && at < 1.0 {
@@ -220,10 +212,7 @@ fn from_state(
     workspace: &mut Workspace,
     report: &mut SolveReport,
 ) -> Outcome {
-    let poses = &mut workspace.record.poses;
-    let along: Vec<Pose> = poses.windows(2).map(|pair| pair[0].between(&pair[1])).collect();
-    let base = poses[0];
-    lay_out(problem, &along, base, poses);
+    put_between_supports(problem, &mut workspace.record.poses);
     relax(problem, settings, &WARM, workspace, report)
 }
 
@@ -236,7 +225,7 @@ pub(crate) fn nearest(
 ) -> Search {
     let Workspace { record, nodal, simd, .. } = &mut *workspace;
     let mut outcome = Outcome::Stalled;
-    let lend = WARM.lent / (1.0 + load_size(problem));
+    let lend = WARM.lent / (1.0 + problem.load_size());
     let mut lent = lend * MOST_SLACK;
     for _ in 0..settings.max_iterations {
         if note(nodal.linearise(problem, *simd, lent, record), report).is_none() {
@@ -250,7 +239,7 @@ pub(crate) fn nearest(
         }
         lent = (lend * report.residual.min(MOST_SLACK)).max(least_lent(problem));
         report.factorisations += 1;
-        if nodal.solve(problem, *simd, 0.0, record).is_none() {
+        if nodal.solve(*simd, 0.0).is_none() {
             outcome = Outcome::Singular;
             break;
         }
@@ -282,18 +271,14 @@ fn holds_state_of(guess: &Guess, problem: &Problem, record: &Record) -> bool {
     apart < 1e-6 * (1.0 + guess.wrench.linear.max_abs() / scale.force)
 }
 
-/// Lays a chain of frames, each given in the one before, between the supports: the best held of these is met by moving the whole, and
-/// what the others miss is spread evenly over the rod between.
-fn lay_out(problem: &Problem, along: &[Pose], base: Pose, poses: &mut [Pose]) {
+/// Puts a chain of frames between the supports: the best held of these is met by moving the whole, and what the others miss is spread evenly
+/// over the rod between.
+fn put_between_supports(problem: &Problem, poses: &mut [Pose]) {
     let fixed = |(_, end): &(usize, &super::End)| end.fixed.iter().filter(|fixed| **fixed).count();
     let anchor = problem.holds().fold(None, |best, hold| match best {
         Some(best) if fixed(&best) >= fixed(&hold) => Some(best),
         _ => Some(hold),
     });
-    poses[0] = base;
-    for (e, relative) in along.iter().enumerate() {
-        poses[e + 1] = poses[e].compose(relative);
-    }
     let Some((anchor, end)) = anchor else { return };
     let moved = meet(end, &poses[anchor]).compose(&poses[anchor].inverse());
     poses.iter_mut().for_each(|pose| *pose = moved.compose(pose));
@@ -318,8 +303,7 @@ fn lay_out(problem: &Problem, along: &[Pose], base: Pose, poses: &mut [Pose]) {
         last = node;
     }
     last = anchor;
-    let before: Vec<_> = problem.holds().filter(|(node, end)| *node < anchor && held(end)).collect();
-    for (node, end) in before.into_iter().rev() {
+    for (node, end) in problem.holds().rev().filter(|(node, end)| *node < anchor && held(end)) {
         spread(last, node, end);
         last = node;
     }
@@ -335,7 +319,7 @@ fn relax(
 ) -> Outcome {
     report.method = Method::Equilibrium;
     let Workspace { record, nodal, simd, .. } = workspace;
-    let simd: SimdLevel = *simd;
+    let simd = *simd;
     // Where the loads are larger than what bends the rod, forces are of their size.
     let strength = strength(problem, record);
     let lend = plan.lent / strength;
@@ -349,7 +333,7 @@ fn relax(
         if residual <= settings.tolerance {
             // One Newton step more costs little and takes what is left down to round-off. It is against hardly any drag, and so shows whether
             // the rod rests only because nothing pushes it off a ridge.
-            let stable = nodal.solve(problem, simd, NEUTRAL * strength, record);
+            let stable = nodal.solve(simd, NEUTRAL * strength);
             report.factorisations += 1;
             if stable.is_none_or(|negative| negative == 0) {
                 if stable.is_some() && nodal.step_size() <= plan.stride {
@@ -358,7 +342,7 @@ fn relax(
                 finish(problem, record);
                 return Outcome::Converged;
             }
-            let Some(enough) = push_off(problem, simd, nodal, record, report) else {
+            let Some(enough) = push_off(simd, nodal, report) else {
                 return Outcome::Singular;
             };
             drag = enough;
@@ -369,7 +353,7 @@ fn relax(
         lent = (lend * residual.min(MOST_SLACK)).max(least_lent(problem));
         loop {
             report.factorisations += 1;
-            match nodal.solve(problem, simd, drag, record) {
+            match nodal.solve(simd, drag) {
                 Some(0) => break,
                 _ if drag > MOST_DRAG => return Outcome::Stalled,
                 _ => drag = (drag * MORE_DRAG).max(SOME_DRAG * strength),
@@ -397,12 +381,6 @@ fn relax(
     Outcome::Stalled
 }
 
-/// The forces that act, together, over `EI/L²`.
-fn load_size(problem: &Problem) -> f64 {
-    let sizes = problem.loads.world.iter().chain(&problem.loads.body).map(|load| load.linear.norm());
-    sizes.sum::<f64>() / problem.rod.scale().force
-}
-
 /// The least that is lent to all elements together.
 fn least_lent(problem: &Problem) -> f64 {
     LEAST_LENT * problem.rod.elements() as f64
@@ -410,17 +388,11 @@ fn least_lent(problem: &Problem) -> f64 {
 
 /// Finds the way off an unstable equilibrium: the step that a small load makes against hardly more drag than holds the rod there, which is
 /// nearly along its most unstable mode. Gives that drag.
-fn push_off(
-    problem: &Problem,
-    simd: SimdLevel,
-    nodal: &mut Nodal,
-    record: &Record,
-    report: &mut SolveReport,
-) -> Option<f64> {
+fn push_off(simd: SimdLevel, nodal: &mut Nodal, report: &mut SolveReport) -> Option<f64> {
     nodal.load_askew();
     let mut holds = |drag: f64| {
         report.factorisations += 1;
-        nodal.solve(problem, simd, drag, record) == Some(0)
+        nodal.solve(simd, drag) == Some(0)
     };
     let mut enough = SOME_DRAG;
     while !holds(enough) {

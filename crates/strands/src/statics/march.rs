@@ -225,7 +225,7 @@ fn general(rod: &Rod, scheme: Scheme, loads: &NodalLoads, end: Section, record: 
     for e in (0..rod.elements()).rev() {
         let h = nodes[e + 1] - nodes[e];
         let points = rod.points(e);
-        let rest: PointStrains = core::array::from_fn(|i| points[i.min(points.len() - 1)].rest);
+        let rest = rod.rest_strains(e);
         let guess: PointStrains = core::array::from_fn(|i| rest[i] + last[0][i]);
         let solve = |order: Order, driving: Wrench| {
             element::solve_general(order, rod.kinematics(), h, points, driving, guess)

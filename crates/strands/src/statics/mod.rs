@@ -100,15 +100,11 @@ fn find(
     workspace: &mut Workspace,
     report: &mut SolveReport,
 ) -> Search {
-    let shooting = matches!(settings.method, Method::Auto | Method::Shooting);
-    let standard = sweep::not_standard(problem).is_none();
-    report.method =
-        if standard && settings.method != Method::Shooting { Method::Sweep } else { Method::Shooting };
+    let sweeps =
+        matches!(settings.method, Method::Auto | Method::Sweep) && sweep::not_standard(problem).is_none();
+    report.method = if sweeps { Method::Sweep } else { Method::Shooting };
     report.path_steps = 1;
-    if shooting | (settings.method == Method::Sweep)
-        && report.method == Method::Sweep
-        && !problem.loads.any_in_world()
-    {
+    if sweeps && !problem.loads.any_in_world() {
         return sweep::two_sweeps(problem, settings, workspace, report);
     }
     if let Some(guess) = guess {
@@ -126,9 +122,8 @@ const LONGEST_SHOT: f64 = 18.0;
 
 /// Whether shooting is out of place: for the wrench of a guess, or by what was asked for.
 fn all_at_once(problem: &Problem, settings: &Settings, guess: &Guess) -> bool {
-    let weight: f64 = problem.loads.world.iter().map(|load| load.linear.norm()).sum();
-    let tension = guess.wrench.linear.z.max(0.0) + weight;
-    let taut = tension > LONGEST_SHOT * LONGEST_SHOT * problem.rod.scale().force;
+    let tension = guess.wrench.linear.z.max(0.0) / problem.rod.scale().force + problem.load_size();
+    let taut = tension > LONGEST_SHOT * LONGEST_SHOT;
     settings.method == Method::Equilibrium
         || settings.method == Method::Auto && has_energy(problem, settings) && is_held(problem) && taut
 }
@@ -287,7 +282,7 @@ fn nearest(
     workspace: &mut Workspace,
     report: &mut SolveReport,
 ) -> Search {
-    let guess = guess.copied().unwrap_or_else(|| path::rest(problem, workspace));
+    let guess = guess.copied().unwrap_or_else(|| path::rest(problem));
     let state = EndState::from_guess(problem, &guess);
     let only_look = Settings { max_iterations: 0, ..Settings::default() };
     report.method = Method::Shooting;

@@ -18,7 +18,9 @@ use super::boundary::{displacements, displacements_slope, meet};
 use super::march::Record;
 use super::problem::Problem;
 use crate::element::{self, DiagonalPoint, Resistance, diagonal_resistance};
-use crate::math::{Kernel, Lanes, Mat3, Mat6, Pose, Quat, Real, SimdLevel, Vec3, Vec6, Wrench, dispatch};
+use crate::math::{
+    Kernel, Lanes, Mat3, Mat6, Pose, Quat, Real, SimdLevel, Vec3, Vec6, Wrench, dispatch, larger, largest,
+};
 use crate::rod::{Order, Rod};
 
 /// How many elements are linearised side by side.
@@ -42,12 +44,14 @@ struct Link {
     pull: Wrench,
 }
 
-/// How a node is held: its free displacements, one a column, and which freedoms are fixed.
+/// How a node is held: its free displacements, one a column, which freedoms are fixed, and the stiffness that comes from how the free
+/// displacements turn.
 #[derive(Clone, Debug)]
 struct Hold {
     node: usize,
     free: Mat6,
     fixed: [bool; 6],
+    curved: Mat6,
 }
 
 /// The linear system, and its solution.
@@ -76,9 +80,9 @@ pub(crate) struct Distance {
 }
 
 impl Distance {
+    /// The larger of the two; NaN where either is.
     pub fn residual(&self) -> f64 {
-        // Not a number where either is.
-        if self.imbalance.is_nan() { f64::NAN } else { self.imbalance.max(self.slack) }
+        larger(self.imbalance, self.slack)
     }
 }
 
@@ -108,20 +112,19 @@ impl Nodal {
         self.load(problem, &axes, state);
         self.holds.clear();
         for (node, end) in problem.holds() {
-            let free = displacements(end, &axes.frame(&state.poses[node]));
-            self.holds.push(Hold { node, free, fixed: end.fixed });
+            let pose = axes.frame(&state.poses[node]);
+            let curved = displacements_slope(end, &pose, self.imbalance(node));
+            self.holds.push(Hold { node, free: displacements(end, &pose), fixed: end.fixed, curved });
         }
-        let largest = self.links.iter().fold(1.0, |max: f64, link| max.max(link.carried.max_abs()));
-        let imbalance = (0..=rod.elements()).fold(0.0, |max: f64, i| {
-            let out = self.out_of_balance(i).max_abs();
-            if out.is_nan() { f64::NAN } else { max.max(out) }
-        });
-        Some(Distance { imbalance: imbalance / largest, slack: slack * rod.elements() as f64 })
+        let carried = self.links.iter().fold(1.0, |max: f64, link| max.max(link.carried.max_abs()));
+        let out_of_balance = |i: usize| largest(&self.out_of_balance(i).to_array());
+        let imbalance = (0..=rod.elements()).map(out_of_balance).fold(0.0, larger);
+        Some(Distance { imbalance: imbalance / carried, slack: slack * rod.elements() as f64 })
     }
 
     /// Elements of any order and law, one after the other. Gives the largest slack.
     fn linearise_any(&mut self, rod: &Rod, axes: &Axes, lent: f64, state: &mut Record) -> Option<f64> {
-        let mut largest = 0.0_f64;
+        let mut worst = 0.0;
         for e in 0..rod.elements() {
             let (near, far) = (&state.poses[e], &state.poses[e + 1]);
             let relative = near.between(far);
@@ -130,7 +133,7 @@ impl Nodal {
             let w = state.wrenches[e];
             let Resistance { stiffness, pull, slack } =
                 element::resistance(rod, e, w, &relative, &pose, &mut state.strains[e], share)?;
-            largest = largest.max(axes.shift(slack).max_abs());
+            worst = larger(worst, largest(&axes.shift(slack).to_array()));
             let stiffness = axes.stiffness(&Mat6 { blocks: stiffness });
             let mut rows = [Row::zero(); 6];
             for (row, numbers) in rows.iter_mut().zip(stiffness.to_rows()) {
@@ -139,7 +142,7 @@ impl Nodal {
             let carried = axes.wrench(pose.carry_wrench(w));
             self.links.push(Link { stiffness: rows, carried, pull: axes.wrench(pull) });
         }
-        Some(largest)
+        Some(worst)
     }
 
     /// What acts on the nodes beside the elements.
@@ -178,7 +181,7 @@ impl Nodal {
             let moment = [by_turn + arm * force[0] + dead[0], arm * force[1] + dead[1]];
             self.load_slopes.push((node, Mat6 { blocks: [moment, force] }));
         }
-        self.load_slopes.sort_by_key(|(node, _)| *node);
+        self.load_slopes.sort_unstable_by_key(|(node, _)| *node);
     }
 
     /// By what a node is out of balance, about itself, without what its hold takes.
@@ -204,19 +207,9 @@ impl Nodal {
 
     /// Solves for a step against a drag (over `EI/L³`, of all nodes together). Gives how many pivots are negative, or `None` where one
     /// vanishes.
-    pub fn solve(&mut self, problem: &Problem, level: SimdLevel, drag: f64, state: &Record) -> Option<usize> {
-        let axes = Axes::new(problem, state);
-        let curved: Vec<Mat6> = problem
-            .holds()
-            .map(|(node, end)| {
-                let pose = axes.frame(&state.poses[node]);
-                displacements_slope(end, &pose, self.imbalance(node))
-            })
-            .collect();
-        dispatch(
-            level,
-            Eliminate { nodal: self, curved: &curved, drag: drag / problem.rod.elements() as f64 },
-        )
+    pub fn solve(&mut self, level: SimdLevel, drag: f64) -> Option<usize> {
+        let drag = drag / self.links.len() as f64;
+        dispatch(level, Eliminate { nodal: self, drag })
     }
 
     /// Adds to what acts a load of size one that has no symmetry, forces and moments, growing along the rod.
@@ -233,13 +226,9 @@ impl Nodal {
     /// The largest turn (rad) and shift (over the length) of a node in the step.
     pub fn step_size(&self) -> f64 {
         let size = |(step, at): (&Vec6, &Vec3)| {
-            step.angular.norm().max(2.0 * (step.linear + step.angular.cross(*at)).norm())
+            larger(step.angular.norm(), 2.0 * (step.linear + step.angular.cross(*at)).norm())
         };
-        self.steps
-            .iter()
-            .zip(&self.places)
-            .map(size)
-            .fold(0.0, |max: f64, size| if size.is_nan() { f64::INFINITY } else { max.max(size) })
+        self.steps.iter().zip(&self.places).map(size).fold(0.0, larger)
     }
 
     /// Takes a part of the step.
@@ -291,7 +280,7 @@ impl Kernel for Linearise<'_> {
     fn run(self) -> f64 {
         let Self { rod, points, axes, lent, state, links } = self;
         let n = rod.elements();
-        let mut largest = 0.0_f64;
+        let mut worst = 0.0;
         for first in (0..n).step_by(BATCH) {
             let [mut compliance, mut rest, mut x, mut wrench] = [Vec6::<Side>::zero(); 4];
             let mut share = Lanes::<BATCH>::zero();
@@ -300,19 +289,14 @@ impl Kernel for Linearise<'_> {
                 // Past the last element the batch repeats it.
                 let e = (first + i).min(n - 1);
                 let point = &points[e];
-                put(&mut compliance.angular, i, point.compliance.angular * axes.moment);
-                put(&mut compliance.linear, i, point.compliance.linear * (axes.force / axes.length));
-                put(&mut rest.angular, i, point.rest.angular);
-                put(&mut rest.linear, i, point.rest.linear * (1.0 / axes.length));
-                let exponent = axes.shift(state.poses[e].between(&state.poses[e + 1]).log());
-                put(&mut x.angular, i, exponent.angular);
-                put(&mut x.linear, i, exponent.linear);
-                let carried = axes.wrench(state.wrenches[e]);
-                put(&mut wrench.angular, i, carried.angular);
-                put(&mut wrench.linear, i, carried.linear);
+                compliance.angular.put(i, point.compliance.angular * axes.moment);
+                compliance.linear.put(i, point.compliance.linear * (axes.force / axes.length));
+                rest.put(i, axes.shift(point.rest));
+                x.put(i, axes.shift(state.poses[e].between(&state.poses[e + 1]).log()));
+                wrench.put(i, axes.wrench(state.wrenches[e]));
                 let pose = axes.frame(&state.poses[e + 1]);
-                (0..3).for_each(|k| put(&mut far.rotation.cols[k], i, pose.rotation.cols[k]));
-                put(&mut far.position, i, pose.position);
+                (0..3).for_each(|k| far.rotation.cols[k].put(i, pose.rotation.cols[k]));
+                far.position.put(i, pose.position);
                 share.0[i] = lent * rod.element_length(e) / rod.length();
             }
             let Resistance { stiffness, pull, slack } =
@@ -326,30 +310,17 @@ impl Kernel for Linearise<'_> {
                         rows[r].0[c] = [&column.x, &column.y, &column.z][r % 3].0[i];
                     }
                 }
-                let size = one(&slack.angular, i).max_abs().max(one(&slack.linear, i).max_abs());
-                largest = if size.is_nan() { f64::NAN } else { largest.max(size) };
-                let pair = |v: &Vec6<Side>| Vec6::new(one(&v.angular, i), one(&v.linear, i));
-                links.push(Link { stiffness: rows, carried: pair(&carried), pull: pair(&pull) });
+                worst = larger(worst, largest(&slack.lane(i).to_array()));
+                links.push(Link { stiffness: rows, carried: carried.lane(i), pull: pull.lane(i) });
             }
         }
-        largest
+        worst
     }
-}
-
-#[inline(always)]
-fn put(side: &mut Side, i: usize, v: Vec3) {
-    (side.x.0[i], side.y.0[i], side.z.0[i]) = (v.x, v.y, v.z);
-}
-
-#[inline(always)]
-fn one(v: &Side, i: usize) -> Vec3 {
-    Vec3::new(v.x.0[i], v.y.0[i], v.z.0[i])
 }
 
 /// Eliminates the nodes from the last to the first, and puts the step back together.
 struct Eliminate<'a> {
     nodal: &'a mut Nodal,
-    curved: &'a [Mat6],
     drag: f64,
 }
 
@@ -358,7 +329,7 @@ impl Kernel for Eliminate<'_> {
 
     #[inline(always)]
     fn run(self) -> Option<usize> {
-        let Self { nodal, curved, drag } = self;
+        let Self { nodal, drag } = self;
         let n = nodal.links.len();
         nodal.follows.resize(n + 1, [Row::zero(); 6]);
         nodal.steps.clear();
@@ -394,7 +365,7 @@ impl Kernel for Eliminate<'_> {
             let held = holds > 0 && nodal.holds[holds - 1].node == i;
             if held {
                 holds -= 1;
-                (pivot, lower) = restrict(&nodal.holds[holds], &curved[holds], &pivot, &lower);
+                (pivot, lower) = restrict(&nodal.holds[holds], &pivot, &lower);
             }
             let mut system: [[Row; 2]; 6] = core::array::from_fn(|r| {
                 let mut right = lower[r];
@@ -531,10 +502,10 @@ fn block(matrix: &Mat6, column: Vec6) -> Block {
 
 /// A held node's equations in its free displacements; those that are fixed are zero.
 #[inline(never)]
-fn restrict(hold: &Hold, curved: &Mat6, pivot: &Block, lower: &Block) -> (Block, Block) {
+fn restrict(hold: &Hold, pivot: &Block, lower: &Block) -> (Block, Block) {
     let t = hold.free.transpose();
     let fixed = Mat6::diagonal(Vec6::from(hold.fixed.map(f64::from)));
-    let restricted = t.mul(&matrix(pivot)).mul(&hold.free).add(curved).add(&fixed);
+    let restricted = t.mul(&matrix(pivot)).mul(&hold.free).add(&hold.curved).add(&fixed);
     (block(&restricted, t.mul_vec(column(pivot))), block(&t.mul(&matrix(lower)), Vec6::ZERO))
 }
 

@@ -9,12 +9,10 @@
 //! A step after which the rod is less stable than before has landed on another branch, and is made smaller.
 
 use super::boundary::{EndState, meet};
-use super::march::{Section, march};
 use super::problem::{End, Problem};
 use super::shooting::{Outcome, Search, Workspace, shoot};
-use super::solution::{Guess, Scheme, Settings, SolveReport};
+use super::solution::{Guess, Settings, SolveReport};
 use super::stability::morse_index;
-use crate::load::NodalLoads;
 use crate::math::{Mat3, Pose, Quat, Vec3, Wrench};
 
 /// The first step of a way.
@@ -31,12 +29,10 @@ const SAMPLES: usize = 9;
 const NUDGE: f64 = 2.0;
 
 /// The unloaded rod from its start's frame: the frame of its end, and no wrench.
-pub(crate) fn rest(problem: &Problem, workspace: &mut Workspace) -> Guess {
-    let unloaded = NodalLoads::none(&problem.rod);
-    let end = Section { pose: Pose::IDENTITY, wrench: Wrench::ZERO };
-    let start = march(workspace.simd, &problem.rod, Scheme::Element, &unloaded, end, &mut workspace.record);
-    let base = meet(&problem.start, &problem.rod.description().base);
-    Guess::new(base.compose(&start.pose.inverse()), Wrench::ZERO)
+pub(crate) fn rest(problem: &Problem) -> Guess {
+    let poses = problem.rod.rest_poses();
+    let base = meet(&problem.start, &poses[0]);
+    Guess::new(base.compose(&poses[0].between(&poses[poses.len() - 1])), Wrench::ZERO)
 }
 
 /// Directions for the force across the rod: along the softer and the stiffer side, to and fro.
@@ -67,7 +63,7 @@ pub(crate) fn from_rest(
     report: &mut SolveReport,
 ) -> Search {
     let nudge = nudge * (NUDGE * problem.rod.scale().force);
-    let from = rest(problem, workspace);
+    let from = rest(problem);
     if problem.end.fixed == [false; 6] && problem.end.grip.is_none() {
         return walk(problem, &from, Change::LoadsGrow(Vec3::ZERO), settings, workspace, report);
     }

@@ -57,8 +57,14 @@ pub struct Problem {
 
 impl Problem {
     /// The nodes that are held or gripped, in order, and how.
-    pub(crate) fn holds(&self) -> impl Iterator<Item = (usize, &End)> {
+    pub(crate) fn holds(&self) -> impl DoubleEndedIterator<Item = (usize, &End)> {
         [(0, &self.start), (self.rod.elements(), &self.end)].into_iter()
+    }
+
+    /// The forces that act on the rod, all together, over `EI/L²`.
+    pub(crate) fn load_size(&self) -> f64 {
+        let forces = self.loads.world.iter().chain(&self.loads.body).map(|load| load.linear.norm());
+        forces.sum::<f64>() / self.rod.scale().force
     }
 
     /// A rod clamped at its base frame, its other end free, nothing acting on it.

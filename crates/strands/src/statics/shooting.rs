@@ -9,7 +9,7 @@ use super::nodal::Nodal;
 use super::problem::Problem;
 use super::solution::{Guess, Jacobian, Scheme, Settings, SolveReport};
 use super::variation::vary;
-use crate::math::{Lanes, Mat3, Pose, SimdLevel, Vec3, Vec6, lu};
+use crate::math::{Lanes, Mat3, Pose, SimdLevel, Vec3, Vec6, largest, lu};
 
 /// A step that gains less than this factor asks for a new Jacobian.
 const WORTHWHILE: f64 = 0.1;
@@ -329,13 +329,6 @@ fn negative_product(a: &[[f64; 6]; 6], x: &[f64; 6]) -> [f64; 6] {
 
 fn norm(residual: &[f64; 6]) -> f64 {
     residual.iter().map(|x| x * x).sum::<f64>().sqrt()
-}
-
-/// The largest residual; NaN where any is.
-fn largest(residual: &[f64; 6]) -> f64 {
-    residual
-        .iter()
-        .fold(0.0, |max: f64, x| if x.is_nan() || max.is_nan() { f64::NAN } else { max.max(x.abs()) })
 }
 
 /// The Jacobian at a guess by each way, for the test that compares them.

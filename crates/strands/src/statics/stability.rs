@@ -8,7 +8,7 @@
 use super::march::Record;
 use super::problem::Problem;
 use super::shooting::Workspace;
-use crate::math::{Vec3, Vec6, Wrench};
+use crate::math::{Vec3, Vec6};
 
 /// What an inextensible, unshearable rod is given for this purpose alone, over `L³/EI` and in place of no compliance: its end then yields by
 /// this part of what it would yield by bending, and an eigenvalue changes its sign by that much too early.
@@ -24,14 +24,13 @@ pub(crate) fn morse_index(problem: &Problem, workspace: &mut Workspace) -> Optio
     }
     let Workspace { record, nodal, simd, .. } = workspace;
     nodal.linearise(problem, *simd, RIGID_COMPLIANCE, record)?;
-    nodal.solve(problem, *simd, NEUTRAL * strength(problem, record), record)
+    nodal.solve(*simd, NEUTRAL * strength(problem, record))
 }
 
 /// The forces that act and that the rod carries, over `EI/L²`, and one for its own: what stiffnesses are measured by.
 pub(crate) fn strength(problem: &Problem, record: &Record) -> f64 {
-    let act = |loads: &[Wrench]| loads.iter().map(|load| load.linear.norm()).sum::<f64>();
     let carried = record.wrenches.iter().fold(0.0, |max: f64, w| max.max(w.linear.norm()));
-    1.0 + (act(&problem.loads.world) + act(&problem.loads.body) + carried) / problem.rod.scale().force
+    1.0 + problem.load_size() + carried / problem.rod.scale().force
 }
 
 /// Whether the loads have one: dead forces have, the rod's own energy and springs have, and what bears on a support does no work.

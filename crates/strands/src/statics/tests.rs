@@ -548,3 +548,31 @@ fn a_tolerance_is_met_with_fewer_elements_than_an_even_mesh_needs() {
         }
     }
 }
+
+#[test]
+fn a_state_with_one_number_that_is_none_has_no_residual() {
+    for order in [Order::Second, Order::Fourth] {
+        let rod = rod(Kinematics::Cosserat, curved(), 40, order);
+        let problem = Problem::cantilever(rod);
+        let mut workspace = Workspace::default();
+        solve(&problem, &Settings::default(), None, &mut workspace).unwrap();
+        let Workspace { record, nodal, simd, .. } = &mut workspace;
+        for node in [3, 20, 39] {
+            for part in 0..6 {
+                let mut state = record.clone();
+                let mut wrench = state.wrenches[node].to_array();
+                wrench[part] = f64::NAN;
+                state.wrenches[node] = wrench.into();
+                let distance = nodal.linearise(&problem, *simd, 1e-3, &mut state);
+                assert!(
+                    distance.is_none_or(|distance| distance.residual().is_nan()),
+                    "{order:?}, {node}, {part}"
+                );
+            }
+            let mut state = record.clone();
+            state.poses[node].position.y = f64::NAN;
+            let distance = nodal.linearise(&problem, *simd, 1e-3, &mut state);
+            assert!(distance.is_none_or(|distance| distance.residual().is_nan()), "{order:?}, {node}");
+        }
+    }
+}

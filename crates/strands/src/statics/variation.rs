@@ -67,35 +67,14 @@ pub(crate) fn vary(
 fn into_lanes(columns: &Columns) -> Variation<Side> {
     let mut packed = Variation { frame: Vec6::zero(), wrench: Vec6::zero() };
     for (i, column) in columns.iter().enumerate() {
-        put_pair(&mut packed.frame, i, column.frame);
-        put_pair(&mut packed.wrench, i, column.wrench);
+        packed.frame.put(i, column.frame);
+        packed.wrench.put(i, column.wrench);
     }
     packed
 }
 
 fn out_of_lanes(packed: &Variation<Side>) -> Columns {
-    core::array::from_fn(|i| Variation { frame: pair(&packed.frame, i), wrench: pair(&packed.wrench, i) })
-}
-
-#[inline(always)]
-fn put(side: &mut Side, i: usize, v: Vec3) {
-    (side.x.0[i], side.y.0[i], side.z.0[i]) = (v.x, v.y, v.z);
-}
-
-#[inline(always)]
-fn put_pair(side: &mut Vec6<Side>, i: usize, v: Vec6) {
-    put(&mut side.angular, i, v.angular);
-    put(&mut side.linear, i, v.linear);
-}
-
-#[inline(always)]
-fn one(v: &Side, i: usize) -> Vec3 {
-    Vec3::new(v.x.0[i], v.y.0[i], v.z.0[i])
-}
-
-#[inline(always)]
-fn pair(v: &Vec6<Side>, i: usize) -> Vec6 {
-    Vec6::new(one(&v.angular, i), one(&v.linear, i))
+    core::array::from_fn(|i| Variation { frame: packed.frame.lane(i), wrench: packed.wrench.lane(i) })
 }
 
 /// A recorded march, seen from its start.
@@ -125,7 +104,7 @@ impl Batch {
         let [[a, b], [c, d]] = &self.flexibility;
         Yielding {
             flexibility: [[block(a, i), block(b, i)], [block(c, i), block(d, i)]],
-            wrench: pair(&self.wrench, i),
+            wrench: self.wrench.lane(i),
         }
     }
 }
@@ -133,7 +112,7 @@ impl Batch {
 #[inline(always)]
 fn block(block: &Mat3<Side>, i: usize) -> Mat3 {
     let [a, b, c] = &block.cols;
-    Mat3::from_cols(one(a, i), one(b, i), one(c, i))
+    Mat3::from_cols(a.lane(i), b.lane(i), c.lane(i))
 }
 
 impl Way<'_> {
@@ -145,14 +124,14 @@ impl Way<'_> {
         let mut far = Pose { rotation: Mat3 { cols: [Side::zero(); 3] }, position: Side::zero() };
         for i in 0..BATCH {
             let e = last.saturating_sub(i);
-            put_pair(&mut compliance, i, points[e].compliance);
-            put_pair(&mut x, i, record.strains[e][0] * (nodes[e + 1] - nodes[e]));
-            put_pair(&mut wrench, i, record.wrenches[e]);
+            compliance.put(i, points[e].compliance);
+            x.put(i, record.strains[e][0] * (nodes[e + 1] - nodes[e]));
+            wrench.put(i, record.wrenches[e]);
             let pose = &record.poses[e + 1];
-            put(&mut far.rotation.cols[0], i, pose.rotation.cols[0]);
-            put(&mut far.rotation.cols[1], i, pose.rotation.cols[1]);
-            put(&mut far.rotation.cols[2], i, pose.rotation.cols[2]);
-            put(&mut far.position, i, pose.position - self.origin);
+            far.rotation.cols[0].put(i, pose.rotation.cols[0]);
+            far.rotation.cols[1].put(i, pose.rotation.cols[1]);
+            far.rotation.cols[2].put(i, pose.rotation.cols[2]);
+            far.position.put(i, pose.position - self.origin);
         }
         let flexibility = diagonal_flexibility(compliance, x, wrench).seen_from(&far);
         Batch { flexibility: flexibility.blocks(), wrench: far.carry_wrench(wrench) }
