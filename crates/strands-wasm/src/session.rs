@@ -287,7 +287,7 @@ impl State {
     fn set_out(&mut self, reason: String, report: SolveReport, unstable: Option<Solution>) {
         let last = self.last_start();
         let others = if self.mode.leads() { self.home.into_iter().collect() } else { Vec::new() };
-        // Pulled taut a thread has no other branch: a start from rest would hold up the next hand for seconds, in vain.
+        // Pulled taut a thread has no other branch: a start from rest would hold up the next hand in vain.
         let may_snap = !self.stuck && self.beyond() == 0.0;
         self.way = Some(Way::new(last, self.solution().clone(), others, unstable, may_snap));
         self.outcome = Outcome { report, reason: Some(reason), saturated: false };
