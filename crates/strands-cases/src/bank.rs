@@ -9,7 +9,7 @@ use fastrand::Rng;
 use strands::load::NodalLoads;
 use strands::math::{Pose, Quat, Vec3};
 use strands::rod::{Kinematics, Law, Order, Profile, RestShape, Rod, RodDescription, RodError, Stiffness};
-use strands::statics::{End, Problem};
+use strands::statics::{Problem, Support};
 
 /// How many there are.
 pub const RODS: u64 = 10_000;
@@ -49,7 +49,7 @@ pub fn problem(number: u64, elements: usize, order: Order) -> Result<Problem, Ro
     };
     let rod = Rod::with_elements(description, elements, &[], order)?;
     let loads = NodalLoads::none(&rod).with_gravity(&rod, gravity);
-    Ok(Problem { loads, end: End::clamped(tip), ..Problem::cantilever(rod) })
+    Ok(Problem { loads, end: Support::clamped(tip), ..Problem::cantilever(rod) })
 }
 
 /// A direction, all alike.

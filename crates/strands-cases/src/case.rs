@@ -4,7 +4,7 @@ use crate::{Comparison, Expected};
 use strands::load::{DistributedLoad, Frame, NodalLoads, PointLoad};
 use strands::math::{Pose, Vec3, Wrench};
 use strands::rod::{Order, Rod, RodDescription, RodError};
-use strands::statics::{End, Guess, Problem, Settings, Solution, SolveFailure, Workspace, solve};
+use strands::statics::{Guess, Problem, Settings, Solution, SolveFailure, Support, Workspace, solve};
 use thiserror::Error;
 
 /// A named problem with reference answers.
@@ -209,7 +209,7 @@ impl Setup {
 pub(crate) fn set_tip(problem: &mut Problem, weight: NodalLoads, tip: Tip) -> Result<(), RodError> {
     problem.loads = match tip {
         Tip::Pose(pose) => {
-            problem.end = End::clamped(pose);
+            problem.end = Support::clamped(pose);
             weight
         }
         Tip::Wrench { wrench, frame } => {

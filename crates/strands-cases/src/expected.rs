@@ -134,7 +134,7 @@ impl Quantity {
             let node = problem.rod.mesh().node_at(s);
             &solution.poses[node.unwrap_or_else(|| panic!("the mesh has no node at {s}"))]
         };
-        let [start, end] = &solution.reactions;
+        let (start, end) = (solution.start_reaction(), solution.end_reaction());
         match self {
             Self::Position { s } => Value::Vector(pose(s).position),
             Self::Deflection { s, along } => Value::Scalar(pose(s).position.dot(along)),

@@ -5,7 +5,7 @@ use core::f64::consts::{FRAC_PI_2, PI};
 use strands::load::{Frame, NodalLoads, PointLoad};
 use strands::math::{Pose, Vec3, Vec6, Wrench};
 use strands::rod::{Kinematics, Law, Order, Profile, RestShape, Rod, RodDescription, Stiffness};
-use strands::statics::{End, Problem, Settings, Solution, Workspace, solve};
+use strands::statics::{Problem, Settings, Solution, Support, Workspace, solve};
 
 /// A round rod of length one and `EI = 1` along x, `EA = 1e6`.
 fn rod(kinematics: Kinematics, elements: usize, mass_per_length: f64) -> Rod {
@@ -46,7 +46,7 @@ fn a_beam_clamped_at_both_ends_bears_a_force_in_its_middle() {
     for force in [0.01, 3.0, 30.0, 300.0] {
         let rod = rod(Kinematics::Cosserat, 100, 0.0);
         let loads = point(&rod, 0.5, Vec3::Z * force);
-        let problem = Problem { loads, end: End::clamped(along_x(1.0)), ..Problem::cantilever(rod) };
+        let problem = Problem { loads, end: Support::clamped(along_x(1.0)), ..Problem::cantilever(rod) };
         let solution = stable(&problem);
         let sag = solution.poses[50].position.z;
         let small = force / 192.0;
@@ -77,11 +77,11 @@ fn a_start_may_be_held_less_than_an_end() {
     let held = |fixed: [bool; 6]| {
         let rod = rod(Kinematics::Kirchhoff, 60, 0.0);
         let far = Pose { position: Vec3::new(0.6, 0.0, 0.3), ..along_x(0.0) };
-        let start = End { fixed, ..End::clamped(along_x(0.0)) };
-        let problem = Problem { start, end: End::clamped(far), ..Problem::cantilever(rod) };
+        let start = Support { fixed, ..Support::clamped(along_x(0.0)) };
+        let problem = Problem { start, end: Support::clamped(far), ..Problem::cantilever(rod) };
         let solution = stable(&problem);
         for (i, free) in fixed.iter().map(|fixed| !fixed).enumerate().take(3) {
-            let moment = solution.poses[0].rotation.transpose() * solution.reactions[0].moment;
+            let moment = solution.poses[0].rotation.transpose() * solution.start_reaction().moment;
             assert!(!free || moment[i].abs() < 1e-8, "{fixed:?}: {moment:?}");
         }
         solution.energy.elastic
@@ -102,9 +102,9 @@ fn a_taut_thread_turns_to_its_ends_over_the_length_that_its_tension_gives() {
     for spare in [0.03, 0.01] {
         let rod = rod(Kinematics::Kirchhoff, 1000, 0.0);
         let up = |x: f64| Pose { rotation: strands::math::Mat3::IDENTITY, position: Vec3::X * x };
-        let (start, end) = (End::clamped(up(0.0)), End::clamped(up(1.0 - spare)));
+        let (start, end) = (Support::clamped(up(0.0)), Support::clamped(up(1.0 - spare)));
         let problem = Problem { start, end, ..Problem::cantilever(rod) };
-        let tension = stable(&problem).reactions[1].force.norm();
+        let tension = stable(&problem).end_reaction().force.norm();
         let bending_length = spare / (4.0 * (1.0 - (PI / 4.0).cos()));
         let expected = 1.0 / (bending_length * bending_length);
         assert!((tension / expected - 1.0).abs() < 0.02, "{spare}: {tension} and {expected}");
@@ -128,11 +128,11 @@ fn a_wire_far_heavier_than_stiff_hangs_in_a_catenary() {
     for elements in [200, 2000] {
         let rod = rod(Kinematics::Kirchhoff, elements, weight);
         let loads = NodalLoads::none(&rod).with_gravity(&rod, Vec3::Z * -1.0);
-        let (start, end) = (End::pinned(along_x(0.0)), End::pinned(along_x(span)));
+        let (start, end) = (Support::pinned(along_x(0.0)), Support::pinned(along_x(span)));
         let solution = stable(&Problem { loads, start, end, ..Problem::cantilever(rod) });
         let lowest = -solution.poses.iter().fold(0.0, |min: f64, pose| min.min(pose.position.z));
         assert!((lowest / sag - 1.0).abs() < 0.01, "{elements}: {lowest} and {sag}");
-        let horizontal = solution.reactions[1].force.x;
+        let horizontal = solution.end_reaction().force.x;
         assert!((horizontal / (weight * low) - 1.0).abs() < 0.02, "{horizontal} and {}", weight * low);
     }
 }

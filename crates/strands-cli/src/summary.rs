@@ -5,7 +5,7 @@ use std::fmt::Write;
 use anstyle::{AnsiColor, Style};
 use strands::math::{Pose, Vec3};
 use strands::rod::{Rod, Scale};
-use strands::statics::Solution;
+use strands::statics::{Problem, Solution};
 
 use crate::drawing::draw;
 use crate::solve::{FailedRod, Outcome, SolvedRod};
@@ -24,8 +24,8 @@ pub fn summary(outcome: &Outcome, colour: bool) -> String {
         if several {
             let _ = writeln!(out, "\n{}", paint.with(Style::new().bold(), &rod.name));
         }
-        let of_model = outcome.model.rod(&rod.name).map(|rod| &rod.problem.rod);
-        for (what, value) in of_model.map_or_else(Vec::new, |of_model| rows(rod, of_model)) {
+        let problem = outcome.model.rod(&rod.name).map(|rod| &rod.problem);
+        for (what, value) in problem.map_or_else(Vec::new, |problem| rows(rod, problem)) {
             let _ = writeln!(out, "  {what:<9} {value}");
         }
         let (style, verdict) = verdict(&rod.solution);
@@ -74,8 +74,9 @@ fn picture(outcome: &Outcome, paint: Paint) -> String {
     out
 }
 
-fn rows(rod: &SolvedRod, of_model: &Rod) -> Vec<(&'static str, String)> {
-    let (solution, order) = (&rod.solution, of_model.order().as_number());
+fn rows(rod: &SolvedRod, problem: &Problem) -> Vec<(&'static str, String)> {
+    let (solution, of_model) = (&rod.solution, &problem.rod);
+    let order = of_model.order().as_number();
     let report = &solution.report;
     let scale = magnitudes(solution, of_model);
     let mut rows = Vec::new();
@@ -84,9 +85,8 @@ fn rows(rod: &SolvedRod, of_model: &Rod) -> Vec<(&'static str, String)> {
         rows.push(("end", format!("at {}", triple(each_settled(tip.position, scale.length), "m"))));
         rows.push(("", format!("orientation [{wxyz}]")));
     }
-    for reaction in &solution.reactions {
-        // A free end bears nothing.
-        if reaction.force == Vec3::ZERO && reaction.moment == Vec3::ZERO {
+    for (reaction, (_, support)) in solution.reactions.iter().zip(problem.supports()) {
+        if !support.holds_anything() {
             continue;
         }
         rows.push(("support", format!("at s = {}", engineering(reaction.s, "m"))));

@@ -28,6 +28,7 @@ const SCENES: &[Bundled] = &[
     scene!("guidewire", "A guidewire with a soft J tip"),
     scene!("ribbon", "A spring-steel strip, bent and turned"),
     scene!("hair_curl", "A curl of hair under its own weight"),
+    scene!("clipped_cable", "A cable in seven clips"),
     scene!("cantilever", "A clamped strip with a force at its end"),
 ];
 

@@ -2,9 +2,9 @@
 
 use strands::coupling::VirtualCoupling;
 use strands::load::{DistributedLoad, NodalLoads, PointLoad};
-use strands::math::Vec3;
+use strands::math::{Mat3, Pose, Vec3};
 use strands::rod::{Order, Rod, RodError};
-use strands::statics::{End, Problem, RefineError, Refined, Settings, refine};
+use strands::statics::{Problem, RefineError, Refined, Settings, Support, refine};
 use thiserror::Error;
 
 /// The most elements that the rods of a scene may have together.
@@ -28,7 +28,7 @@ pub struct Model {
 pub struct ModelRod {
     /// Its name.
     pub name: String,
-    /// The rod on its mesh, what acts on it and how its ends are held. Where the mesh is to be chosen for a tolerance, this one has 100
+    /// The rod on its mesh, what acts on it and how it is held. Where the mesh is to be chosen for a tolerance, this one has 100
     /// elements, and [`Model::refined`] gives the other.
     pub problem: Problem,
     /// How a hand holds the rod's end when someone moves it.
@@ -36,16 +36,21 @@ pub struct ModelRod {
     /// How the mesh is chosen.
     pub mesh: MeshChoice,
     pub(crate) loads: Loads,
-    pub(crate) end_given: GivenTargets,
+    pub(crate) supports: Vec<Held>,
 }
 
-/// Which of the end's targets the supports give. The others are those of the unloaded rod, on whichever mesh it is.
-#[derive(Clone, Copy, Debug, Default)]
-pub(crate) struct GivenTargets {
-    /// x, y and z.
-    pub position: [bool; 3],
-    /// The frame.
-    pub orientation: bool,
+/// How a place of a rod is held, apart from any mesh. Targets that are not given are those of the unloaded rod, on whichever mesh it is.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Held {
+    /// Where along the rod, m.
+    pub s: f64,
+    pub fixed: [bool; 6],
+    /// Targets of x, y and z.
+    pub position: [Option<f64>; 3],
+    /// Target of the frame.
+    pub rotation: Option<Mat3>,
+    pub slide_along: Option<Vec3>,
+    pub turn_about: Option<Vec3>,
 }
 
 /// How a rod's mesh is chosen.
@@ -111,39 +116,58 @@ impl Model {
 
 impl ModelRod {
     fn refine(&self, tolerance: f64, settings: &Settings) -> Result<Refined, RefineError> {
-        let Problem { rod, start, end, .. } = &self.problem;
-        let pose = |rod: Rod| {
-            let end = self.end_given.on_mesh(end, &rod);
-            self.loads.problem(rod, start.clone(), end)
-        };
+        let rod = &self.problem.rod;
         let order: Order = rod.order();
-        refine(rod.description(), order, &self.loads.breaks(), tolerance, MAX_ELEMENTS, settings, pose)
+        let breaks = breaks(&self.loads, &self.supports);
+        let pose = |rod: Rod| self.loads.problem(rod, &self.supports);
+        refine(rod.description(), order, &breaks, tolerance, MAX_ELEMENTS, settings, pose)
     }
 }
 
-impl GivenTargets {
-    /// An end, with the targets that are not given taken from the unloaded rod.
-    fn on_mesh(&self, end: &End, rod: &Rod) -> End {
-        let (mut end, rest) = (end.clone(), rod.rest_poses()[rod.elements()]);
-        for i in (0..3).filter(|i| !self.position[*i]) {
-            end.pose.position[i] = rest.position[i];
+/// Where the mesh must have nodes for loads and supports, m.
+pub(crate) fn breaks(loads: &Loads, supports: &[Held]) -> Vec<f64> {
+    loads.breaks().into_iter().chain(supports.iter().map(|held| held.s)).collect()
+}
+
+impl Held {
+    /// A place that nothing holds.
+    pub fn free(s: f64) -> Self {
+        Self {
+            s,
+            fixed: [false; 6],
+            position: [None; 3],
+            rotation: None,
+            slide_along: None,
+            turn_about: None,
         }
-        if !self.orientation {
-            end.pose.rotation = rest.rotation;
+    }
+
+    /// The support, where the unloaded rod has the frame `rest` there.
+    fn support(&self, rest: Pose) -> Support {
+        let mut pose = Pose { rotation: self.rotation.unwrap_or(rest.rotation), ..rest };
+        for (i, target) in self.position.iter().enumerate() {
+            pose.position[i] = target.unwrap_or(pose.position[i]);
         }
-        end
+        let mut support = Support::of(self.fixed, pose);
+        if let Some(axis) = self.slide_along {
+            support = support.sliding_along(axis);
+        }
+        if let Some(axis) = self.turn_about {
+            support = support.turning_about(axis);
+        }
+        support
     }
 }
 
 impl Loads {
     /// Where the mesh must have nodes for these loads, m.
-    pub fn breaks(&self) -> Vec<f64> {
+    fn breaks(&self) -> Vec<f64> {
         let stretches = self.stretches.iter().flat_map(|load| [load.from, load.to]);
         self.points.iter().map(|load| load.at).chain(stretches).collect()
     }
 
-    /// The problem of a rod under these loads, held at its ends.
-    pub fn problem(&self, rod: Rod, start: End, end: End) -> Result<Problem, RodError> {
+    /// The problem of a rod under these loads and so held. The mesh has a node wherever it is held.
+    pub fn problem(&self, rod: Rod, supports: &[Held]) -> Result<Problem, RodError> {
         let mut loads = NodalLoads::none(&rod).with_gravity(&rod, self.gravity);
         for load in &self.points {
             loads = loads.with_point(&rod, load)?;
@@ -151,6 +175,19 @@ impl Loads {
         for load in &self.stretches {
             loads = loads.with_distributed(&rod, load)?;
         }
-        Ok(Problem { rod, loads, start, end })
+        let rest = rod.rest_poses();
+        let last = rod.elements();
+        let (start, end) = (Support::free(rest[0]), Support::free(rest[last]));
+        let mut problem = Problem { loads, start, end, between: Vec::new(), rod };
+        for held in supports {
+            let node = problem.rod.mesh().node_at(held.s);
+            let node = node.unwrap_or_else(|| unreachable!("the supports are among the mesh's breaks"));
+            let support = held.support(rest[node]);
+            match problem.support_mut(node) {
+                Some(end) => *end = support,
+                None => problem.between.push((node, support)),
+            }
+        }
+        Ok(problem)
     }
 }

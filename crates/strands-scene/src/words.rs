@@ -70,7 +70,7 @@ pub(crate) fn later(word: &str) -> Option<&'static str> {
         "bodies" | "joints" => {
             "remove it: rods stand alone so far; a weight at an end can be given as a load"
         }
-        "eyelets" => "remove it: a rod is held at its two ends so far",
+        "eyelets" => "remove it: a support with `fix = [\"position\"]` holds a point of the rod",
         "obstacles" => "remove it: nothing touches a rod so far",
         "motion" => "remove it: supports stand still so far; give `position` and `orientation`",
         "initial" => "remove it: the search starts from the rest shape",
@@ -106,6 +106,8 @@ pub(crate) fn example(key: &str) -> Option<&'static str> {
         "shear" => {
             "give it along d1 and d2 in N, as `shear = [4e3, 4e3]`; a rod with `kinematics = \"kirchhoff\"` does without"
         }
+        "slide_along" => "give a direction in world axes, as `slide_along = [0.0, 0.0, 1.0]`",
+        "turn_about" => "give an axis in world directions, as `turn_about = [1.0, 0.0, 0.0]`",
         "linear_stiffness" => "give it in N/m, as `linear_stiffness = 50.0`",
         "angular_stiffness" => "give it in N·m/rad, as `angular_stiffness = 1e-3`",
         "linear_damping" => "give it in N·s/m, as `linear_damping = 0.05`; 0 for none",

@@ -99,8 +99,17 @@ fn support() -> impl Strategy<Value = SupportFile> {
     use FixName::*;
     let fix = prop::sample::subsequence(vec![X, Y, Z, Position, Orientation, Tangent, Twist], 0..4);
     let quaternion = [number(), number(), number(), number()];
-    (place(), fix, prop::option::of(vector()), prop::option::of(quaternion))
-        .prop_map(|(at, fix, position, orientation)| SupportFile { at, fix, position, orientation })
+    let axes = (prop::option::of(vector()), prop::option::of(vector()));
+    (place(), fix, prop::option::of(vector()), prop::option::of(quaternion), axes).prop_map(
+        |(at, fix, position, orientation, (slide_along, turn_about))| SupportFile {
+            at,
+            fix,
+            position,
+            orientation,
+            slide_along,
+            turn_about,
+        },
+    )
 }
 
 fn load() -> impl Strategy<Value = LoadFile> {

@@ -5,7 +5,7 @@ use strands::math::{Pose, Quat, Vec3, Wrench};
 use strands::rod::{
     Kinematics, Material, Order, Profile, RestShape, Rod, RodDescription, RodError, Section, Station,
 };
-use strands::statics::{End, Guess, Problem, Settings, SolveReport, Workspace, follow, solve};
+use strands::statics::{Guess, Problem, Settings, SolveReport, Support, Workspace, follow, solve};
 use wasm_bindgen::prelude::*;
 
 /// Does `sweeps` sweeps of a suture with that many elements, then `solves` warm searches for an end that moved by 0.3 % of the length and
@@ -25,7 +25,7 @@ pub fn bench(elements: usize, sweeps: usize, solves: usize) -> Result<usize, Str
         follow(&free, &once, &mut guess, &mut workspace, &mut report);
     }
     let hanging = solve(&free, &settings, None, &mut workspace).map_err(|failure| failure.to_string())?;
-    let mut held = Problem { end: End::clamped(hanging.guess.pose), ..free };
+    let mut held = Problem { end: Support::clamped(hanging.guess.pose), ..free };
     let mut converged = 0;
     for i in 0..solves {
         let mut guess = hanging.guess;

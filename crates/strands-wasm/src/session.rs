@@ -2,7 +2,7 @@
 
 use strands::coupling::{Grip, LastFrame, VirtualCoupling};
 use strands::math::{Pose, Quat, Strain, Wrench};
-use strands::statics::{End, Guess, Solution, SolveReport, Workspace, solve};
+use strands::statics::{Guess, Solution, SolveReport, Support, Workspace, solve};
 use strands_scene::{CouplingFile, FixName, HandFile, Model, ModelRod, Place, Scene, SceneFile, SupportFile};
 
 use crate::hand::{HandMode, coupling_for, reachable};
@@ -130,7 +130,7 @@ impl State {
     /// Where the spring is so soft that there is no such place; the mode is then as it was.
     pub fn set_mode(&mut self, mode: HandMode) -> Result<(), String> {
         if mode == HandMode::Coupling && self.mode != mode {
-            let (held, reaction) = (tip(self.solution()), self.solution().reactions[1]);
+            let (held, reaction) = (tip(self.solution()), *self.solution().end_reaction());
             let by_turn = reaction.moment * (1.0 / self.coupling.angular_stiffness);
             let by_shift = reaction.force * (1.0 / self.coupling.linear_stiffness);
             if !(by_turn.is_finite() && by_shift.is_finite()) {
@@ -182,6 +182,8 @@ impl State {
                 fix: vec![FixName::Position, FixName::Orientation],
                 position: Some(tip.position.to_array()),
                 orientation: Some(tip.orientation().to_wxyz()),
+                slide_along: None,
+                turn_about: None,
             });
         }
         file
@@ -294,15 +296,15 @@ impl State {
     }
 
     /// How the hand holds a rod's end now.
-    fn end(&self, rod: &ModelRod, time_step: f64) -> End {
+    fn end(&self, rod: &ModelRod, time_step: f64) -> Support {
         match self.mode {
             HandMode::Scene => rod.problem.end.clone(),
-            HandMode::Free => End::free(tip(self.solution())),
-            HandMode::Pose => End::clamped(reachable(rod, &self.hand)),
+            HandMode::Free => Support::free(tip(self.solution())),
+            HandMode::Pose => Support::clamped(reachable(rod, &self.hand)),
             HandMode::Coupling => {
                 let held = tip(self.solution());
                 let last = (time_step > 0.0).then_some(LastFrame { hand: self.last_hand, held, time_step });
-                End::gripped(Grip { coupling: self.coupling, hand: self.hand, last })
+                Support::gripped(Grip { coupling: self.coupling, hand: self.hand, last })
             }
         }
     }
@@ -342,7 +344,7 @@ impl State {
     pub fn report(&self) -> String {
         let Outcome { report, reason, saturated } = &self.outcome;
         let solution = self.solution();
-        let [start, end] = solution.reactions.map(|reaction| {
+        let [start, end] = [solution.start_reaction(), solution.end_reaction()].map(|reaction| {
             serde_json::json!({ "force": reaction.force.to_array(), "moment": reaction.moment.to_array() })
         });
         serde_json::json!({

@@ -8,7 +8,8 @@
 use strands::coupling::VirtualCoupling;
 use strands::math::{Mat3, Pose, Quat};
 use strands::statics::{
-    End, FailureReason, Guess, Problem, Reaction, Settings, Solution, SolveReport, Workspace, follow, solve,
+    FailureReason, Guess, Problem, Reaction, Settings, Solution, SolveReport, Support, Workspace, follow,
+    solve,
 };
 
 /// Iterations of one step: a coil may need thirty, and a step that fails mostly stalls long before.
@@ -33,12 +34,12 @@ pub struct Start {
 
 impl Start {
     pub fn new(shape: &Solution, hand: Pose, saturated: bool) -> Self {
-        Self { guess: shape.guess, hand, reaction: shape.reactions[1], saturated }
+        Self { guess: shape.guess, hand, reaction: *shape.end_reaction(), saturated }
     }
 
     /// Where to search for the shape that is held at `end`. On a spring the end is put where the spring does what has held it so far: a
     /// stiff one, a little stretched or slack, would do a thousand times that, or nothing. At its limit it does the same wherever it is.
-    pub fn guess_at(&self, end: &End) -> Guess {
+    pub fn guess_at(&self, end: &Support) -> Guess {
         let Some(grip) = end.grip.as_ref().filter(|_| !self.saturated) else { return self.guess };
         let VirtualCoupling { mut linear_stiffness, linear_damping, angular_stiffness, .. } = grip.coupling;
         let mut pull = grip.hand.position * linear_stiffness - self.reaction.force;
@@ -181,7 +182,7 @@ pub fn search(
 }
 
 /// Puts the end that a hand holds somewhere else.
-fn hold(end: &mut End, hand: Pose) {
+fn hold(end: &mut Support, hand: Pose) {
     match &mut end.grip {
         Some(grip) => grip.hand = hand,
         None => end.pose = hand,

@@ -26,7 +26,7 @@ fn main() -> Result<(), Box<dyn std::error::Error>> {
         let problem = Problem { loads, ..Problem::cantilever(rod) };
         let solution = solve(&problem, &Settings::default(), None, &mut Workspace::default())?;
         let tip = solution.poses[100].position;
-        let moment = solution.reactions[0].moment.norm();
+        let moment = solution.start_reaction().moment.norm();
         println!(
             "{:3.0} mm long: the tip falls {:6.2} mm, the clamp holds {:.3} µN·m, {} sweeps",
             length * 1e3,

@@ -5,7 +5,7 @@
 use strands::load::NodalLoads;
 use strands::math::{Mat3, Pose, Quat, Vec3};
 use strands::rod::{Kinematics, Material, Order, Profile, RestShape, Rod, RodDescription, Section, Station};
-use strands::statics::{End, Problem, Settings, Workspace, solve};
+use strands::statics::{Problem, Settings, Support, Workspace, solve};
 
 fn main() -> Result<(), Box<dyn std::error::Error>> {
     let polypropylene = Material::from_poisson(1.5e9, 0.4, 910.0)?;
@@ -26,10 +26,10 @@ fn main() -> Result<(), Box<dyn std::error::Error>> {
         let twist = Quat::from_rotation_vector(Vec3::new(0.0, 0.0, f64::from(turn).to_radians()));
         let hand =
             Pose { rotation: Mat3::IDENTITY * twist.to_matrix(), position: Vec3::new(0.01, 0.0, 0.085) };
-        problem.end = End::clamped(hand);
+        problem.end = Support::clamped(hand);
         match solve(&problem, &settings, guess.as_ref(), &mut workspace) {
             Ok(solution) => {
-                let felt = solution.reactions[1];
+                let felt = solution.end_reaction();
                 println!(
                     "turned by {turn:3}°: force {:6.2} µN, torque about the axis {:6.3} µN·m, {} iterations, Morse index {:?}",
                     felt.force.norm() * 1e6,

@@ -7,7 +7,7 @@ use strands::math::{Pose, Vec3, Vec6, Wrench};
 use strands::rod::{
     Kinematics, Material, Order, Profile, RestShape, Rod, RodDescription, RodError, Section, Station,
 };
-use strands::statics::{End, Problem};
+use strands::statics::{Problem, Support};
 
 /// Length of the wire, m.
 pub const LENGTH: f64 = 0.5;
@@ -42,7 +42,7 @@ pub fn standard(elements: usize, order: Order, kinematics: Kinematics) -> Result
 pub fn held(elements: usize, held: Pose) -> Result<Problem, RodError> {
     let mut problem = wire(elements, Order::Second, Kinematics::Cosserat)?;
     problem.loads = NodalLoads::none(&problem.rod).with_gravity(&problem.rod, Vec3::new(0.0, 0.0, -9.81));
-    problem.end = End::clamped(held);
+    problem.end = Support::clamped(held);
     Ok(problem)
 }
 

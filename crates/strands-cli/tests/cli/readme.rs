@@ -45,7 +45,7 @@ fn the_code_runs() -> Result<(), Box<dyn std::error::Error>> {
     use strands::rod::{
         Kinematics, Material, Order, Profile, RestShape, Rod, RodDescription, Section, Station,
     };
-    use strands::statics::{End, Problem, Settings, Workspace, solve};
+    use strands::statics::{Problem, Settings, Support, Workspace, solve};
 
     let nylon = Material::from_poisson(2e9, 0.39, 1140.0)?;
     let round = Section::Circle { radius: 150e-6 };
@@ -62,10 +62,10 @@ fn the_code_runs() -> Result<(), Box<dyn std::error::Error>> {
 
     // Hold the end in a hand: 100 mm aside, 200 mm up, turned by a right angle.
     let turned = Pose::exp(Vec6::new(Vec3::Y * FRAC_PI_2, Vec3::ZERO));
-    problem.end = End::clamped(Pose { position: Vec3::new(0.1, 0.0, 0.2), ..turned });
+    problem.end = Support::clamped(Pose { position: Vec3::new(0.1, 0.0, 0.2), ..turned });
 
     let solution = solve(&problem, &Settings::default(), None, &mut Workspace::default())?;
-    let hand = solution.reactions[1];
+    let hand = solution.end_reaction();
     println!("force {:?} N, moment {:?} N·m", hand.force, hand.moment);
     // to here.
     assert!(solution.imbalance(&problem) < 1e-9);

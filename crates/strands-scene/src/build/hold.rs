@@ -1,64 +1,50 @@
-//! How the ends of a rod are held, and the hand.
+//! How a rod is held, and the hand.
 
 use super::{Context, load};
 use crate::document::{Document, KeyPath};
 use crate::error::SceneError;
 use crate::file::{FixName, HandFile, Place, RodFile, SupportFile};
-use crate::model::{GivenTargets, ModelRod};
+use crate::model::{Held, ModelRod};
 use crate::words;
-use strands::math::Pose;
-use strands::rod::Rod;
-use strands::statics::End;
+use strands::math::Vec3;
 
-/// The six freedoms of an end, in the order of [`End::fixed`].
+/// The six freedoms of a support, in the order of [`strands::statics::Support::fixed`].
 const FREEDOMS: [&str; 6] = ["the tangent", "the tangent", "the twist", "x", "y", "z"];
 
-/// The start and the end of a rod, as its supports hold them, and what of the end's targets they give.
-pub(super) fn ends(
+/// Where and how a rod's supports hold it, in the order of places.
+pub(super) fn supports(
     context: &Context,
     path: &KeyPath,
     file: &RodFile,
-    rod: &Rod,
-) -> Result<(End, End, GivenTargets), SceneError> {
-    let unloaded = rod.rest_poses();
-    let mut start = Held::free(unloaded[0]);
-    let mut end = Held::free(unloaded[rod.elements()]);
+    length: f64,
+) -> Result<Vec<Held>, SceneError> {
     let supports = path.key("supports");
+    let mut all: Vec<Held> = Vec::new();
     for (i, support) in file.supports.iter().enumerate() {
         let place = supports.index(i);
-        let s = load::place(context, &place.key("at"), support.at, rod.length())?;
-        let slack = 1e-9 * rod.length();
-        let held = if s <= slack {
-            &mut start
-        } else if support.at.is_end(rod.length()) {
-            &mut end
-        } else {
-            let error =
-                context.document.error(&place.key("at"), "supports inside the rod are not in this version");
-            return Err(error.mend("hold the rod at \"start\" or \"end\""));
+        let s = load::place(context, &place.key("at"), support.at, length)?;
+        let slack = 1e-9 * length;
+        let at = match all.iter().position(|held| (held.s - s).abs() <= slack) {
+            Some(at) => at,
+            None => {
+                all.push(Held::free(s));
+                all.len() - 1
+            }
         };
-        held.add(context.document, &place, support)?;
+        all[at].add(context.document, &place, support)?;
     }
-    if !start.end.fixed.contains(&true) && !end.end.fixed.contains(&true) {
+    if all.is_empty() {
         let error = context.document.error(path, "nothing holds the rod");
         return Err(error.mend(format!(
             "clamp its start: `[[{path}.supports]]` with `at = \"start\"` and `fix = [\"position\", \"orientation\"]`"
         )));
     }
-    Ok((start.end, end.end, end.given))
-}
-
-/// An end on which supports are being put.
-struct Held {
-    end: End,
-    given: GivenTargets,
+    all.sort_by(|a, b| a.s.total_cmp(&b.s));
+    Ok(all)
 }
 
 impl Held {
-    fn free(pose: Pose) -> Self {
-        Self { end: End::free(pose), given: GivenTargets::default() }
-    }
-
+    /// Takes over what a support holds.
     fn add(&mut self, document: &Document, path: &KeyPath, support: &SupportFile) -> Result<(), SceneError> {
         if support.fix.is_empty() {
             let error = document.error(&path.key("fix"), "the support holds nothing");
@@ -67,7 +53,7 @@ impl Held {
         let mut fixed = [false; 6];
         for (i, name) in support.fix.iter().enumerate() {
             for freedom in freedoms(*name) {
-                if fixed[freedom] || self.end.fixed[freedom] {
+                if fixed[freedom] || self.fixed[freedom] {
                     let message = format!("{} is held here twice", FREEDOMS[freedom]);
                     let error = document.error(&path.key("fix").index(i), message);
                     return Err(error.mend("\"position\" holds x, y and z, \"orientation\" holds tangent and twist: hold each once"));
@@ -76,7 +62,28 @@ impl Held {
             }
         }
         self.place(document, path, support, &fixed)?;
-        for (held, fixed) in self.end.fixed.iter_mut().zip(fixed) {
+        let axis = |key: &str, axis: Option<[f64; 3]>, whole: bool, word: &str| {
+            let Some(axis) = axis.map(Vec3::from) else { return Ok(None) };
+            if !whole {
+                let error =
+                    document.error(&path.key(key), format!("the support does not hold the whole {word}"));
+                return Err(error.mend(format!(
+                    "`{key}` frees one axis of what is held: add \"{word}\" to `fix`, or remove `{key}`"
+                )));
+            }
+            if axis.norm() == 0.0 {
+                let error = document.error(&path.key(key), "the axis has no direction");
+                return Err(
+                    error.mend(format!("give a direction in world axes, as `{key} = [0.0, 0.0, 1.0]`"))
+                );
+            }
+            Ok(Some(axis))
+        };
+        self.slide_along = axis("slide_along", support.slide_along, fixed[3..] == [true; 3], "position")?
+            .or(self.slide_along);
+        self.turn_about = axis("turn_about", support.turn_about, fixed[..3] == [true; 3], "orientation")?
+            .or(self.turn_about);
+        for (held, fixed) in self.fixed.iter_mut().zip(fixed) {
             *held |= fixed;
         }
         Ok(())
@@ -99,8 +106,7 @@ impl Held {
                 return Err(unused("position", "\"position\""));
             }
             for i in (0..3).filter(|i| fixed[3 + i]) {
-                self.end.pose.position[i] = position[i];
-                self.given.position[i] = true;
+                self.position[i] = Some(position[i]);
             }
         }
         if let Some(orientation) = support.orientation {
@@ -109,14 +115,13 @@ impl Held {
                 return Err(unused("orientation", "\"orientation\", \"tangent\" or \"twist\""));
             }
             let rotation = document.quaternion(&place, orientation)?.to_matrix();
-            if self.given.orientation && rotation != self.end.pose.rotation {
-                let error = document.error(&place, "two supports of this end give different orientations");
+            if self.rotation.is_some_and(|other| other != rotation) {
+                let error = document.error(&place, "two supports of this place give different orientations");
                 return Err(error.mend(
-                    "tangent and twist of an end are held in one frame: give both the same orientation",
+                    "tangent and twist of a place are held in one frame: give both the same orientation",
                 ));
             }
-            self.end.pose.rotation = rotation;
-            self.given.orientation = true;
+            self.rotation = Some(rotation);
         }
         Ok(())
     }

@@ -4,7 +4,7 @@ use super::{Context, hold, load, profile, rest};
 use crate::document::KeyPath;
 use crate::error::SceneError;
 use crate::file::{KinematicsName, RodFile};
-use crate::model::{MAX_ELEMENTS, MeshChoice, ModelRod};
+use crate::model::{MAX_ELEMENTS, MeshChoice, ModelRod, breaks};
 use strands::math::Pose;
 use strands::rod::{Kinematics, Rod, RodDescription, RodError};
 
@@ -33,27 +33,24 @@ pub(super) fn rod(
         base: base(context, &path, file, unloaded.start)?,
     };
     let loads = load::loads(context, &path, file, length)?;
+    let supports = hold::supports(context, &path, file, length)?;
+    let breaks = breaks(&loads, &supports);
     let mesh = mesh_choice(context, &path, file, total)?;
     let elements = match mesh {
         MeshChoice::Elements(elements) => elements,
-        MeshChoice::Tolerance(_) => {
-            DEFAULT_ELEMENTS.max(2 * (description.breaks().len() + loads.breaks().len() + 1))
-        }
+        MeshChoice::Tolerance(_) => DEFAULT_ELEMENTS.max(2 * (description.breaks().len() + breaks.len() + 1)),
     };
     let rod =
-        Rod::with_elements(description, elements, &loads.breaks(), context.order).map_err(
-            |error| match error {
-                RodError::TooFewElements { needed, .. } => document
-                    .error(&path.key("elements"), error.to_string())
-                    .mend(format!("write `elements = {needed}` or more")),
-                _ => document.error(&path, error.to_string()),
-            },
-        )?;
-    let (start, end, end_given) = hold::ends(context, &path, file, &rod)?;
+        Rod::with_elements(description, elements, &breaks, context.order).map_err(|error| match error {
+            RodError::TooFewElements { needed, .. } => document
+                .error(&path.key("elements"), error.to_string())
+                .mend(format!("write `elements = {needed}` or more")),
+            _ => document.error(&path, error.to_string()),
+        })?;
     let problem = loads
-        .problem(rod, start, end)
+        .problem(rod, &supports)
         .map_err(|error| document.error(&path.key("loads"), error.to_string()))?;
-    Ok(ModelRod { name: name.to_owned(), problem, hand: None, mesh, loads, end_given })
+    Ok(ModelRod { name: name.to_owned(), problem, hand: None, mesh, loads, supports })
 }
 
 /// The frame of the rod's start.

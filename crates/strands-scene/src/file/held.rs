@@ -24,7 +24,7 @@ pub enum Place {
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields, expecting = "a table")]
 pub struct SupportFile {
-    /// Where: one of the rod's ends.
+    /// Where.
     pub at: Place,
     /// What it holds.
     pub fix: Vec<FixName>,
@@ -34,6 +34,12 @@ pub struct SupportFile {
     /// The frame it holds, a unit quaternion `[w, x, y, z]`. Default: as the unloaded rod has it.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub orientation: Option<[f64; 4]>,
+    /// A direction in world axes along which it lets the rod slide, though it holds the position otherwise.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub slide_along: Option<[f64; 3]>,
+    /// An axis in world directions about which it lets the rod turn, though it holds the orientation otherwise: a hinge.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub turn_about: Option<[f64; 3]>,
 }
 
 /// What a support holds.

@@ -28,7 +28,7 @@ struct ReactionAnswer {
 ///
 /// `iterations`, `energy` (elastic and of dead loads, J) and `morse_index` are sums over the rods, `residual` is the largest;
 /// `morse_index` and `stable` are null where the loads have no potential. `method` is null where rods were solved in different ways. Reactions are those
-/// of the ends that are held. `solve_seconds` is left out where it is not known.
+/// of the places that are held. `solve_seconds` is left out where it is not known.
 pub fn json(model: &Model, solutions: &[(&str, &Solution)], solve_seconds: Option<f64>) -> String {
     let solved = Solved::all(model, solutions);
     let reports = || solved.iter().map(|solved| &solved.solution.report);
@@ -92,7 +92,7 @@ fn rods(solved: &[Solved]) -> Value {
 fn rod<'a>(solved: &Solved<'a>) -> RodAnswer<'a> {
     let Solution { poses, strain, stress, reactions, .. } = solved.solution;
     let problem = &solved.rod.problem;
-    let held = [&problem.start, &problem.end].map(|end| end.fixed.contains(&true) || end.grip.is_some());
+    let held = problem.supports().map(|(_, support)| support.holds_anything());
     let reactions = reactions.iter().zip(held).filter(|(_, held)| *held).map(|(reaction, _)| {
         ReactionAnswer { s: reaction.s, force: reaction.force.to_array(), moment: reaction.moment.to_array() }
     });

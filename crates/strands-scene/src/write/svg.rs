@@ -81,9 +81,9 @@ fn drawn(rod: &Solved<'_>, view: &View, frame: &Frame, colour: &str) -> String {
         "<path d=\"{path}\" fill=\"none\" stroke=\"{colour}\" stroke-width=\"{width:.2}\" stroke-linejoin=\"round\"/>"
     );
     let problem = &rod.rod.problem;
-    for (end, pose) in [(&problem.start, &poses[0]), (&problem.end, &poses[poses.len() - 1])] {
-        if end.fixed.contains(&true) {
-            let [x, y] = place(pose);
+    for (node, support) in problem.supports() {
+        if support.fixed.contains(&true) {
+            let [x, y] = place(&poses[node]);
             write!(
                 out,
                 "\n<rect x=\"{:.2}\" y=\"{:.2}\" width=\"8\" height=\"8\" fill=\"#444\"/>",

@@ -3,7 +3,7 @@
 use super::*;
 use crate::load::NodalLoads;
 use crate::rod::{Kinematics, Law, Order, Profile, RestShape, Rod, RodDescription, Stiffness};
-use crate::statics::{End, Guess, Problem, Settings, SolveReport, Workspace, follow, solve};
+use crate::statics::{Guess, Problem, Settings, SolveReport, Support, Workspace, follow, solve};
 use proptest::prelude::*;
 
 fn vec3(size: f64) -> impl Strategy<Value = Vec3> {
@@ -124,7 +124,7 @@ proptest! {
         let mut exchange = Exchange::default();
         for i in 1..=STEPS {
             let grip = Grip { coupling, hand: on_loop(i), last: Some(last) };
-            problem.end = End::gripped(grip);
+            problem.end = Support::gripped(grip);
             let settings = Settings { tolerance: 1e-10, ..Settings::default() };
             // A loop on which the search fails, or the strand snaps over, says nothing of the coupling.
             prop_assume!(follow(&problem, &settings, &mut guess, &mut workspace, &mut report));

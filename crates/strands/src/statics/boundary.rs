@@ -8,7 +8,7 @@
 //! is `J(φ)⁻ᵀ eᵢ`, with `J` the tangent on SO(3). With all turns free or all fixed both reduce to the material axes.
 
 use super::march::{Section, turned};
-use super::problem::{End, Problem};
+use super::problem::{Problem, Support};
 use super::solution::Guess;
 use super::variation::{Columns, Variation, turned_by};
 use crate::math::{Mat3, Mat6, Pose, Quat, Vec3, Vec6, Wrench, tangent, tangent_inverse};
@@ -29,13 +29,18 @@ enum Turns {
     Mixed,
 }
 
-impl End {
+impl Support {
     fn turns(&self) -> Turns {
         match self.fixed[..3].iter().filter(|fixed| **fixed).count() {
             0 => Turns::Free,
             3 => Turns::Fixed,
             _ => Turns::Mixed,
         }
+    }
+
+    /// The axis of a freedom: of a turn in the fixed frame, of a shift in the world.
+    fn axis(&self, freedom: usize) -> Vec3 {
+        if freedom < 3 { self.turn_axes.cols[freedom] } else { self.shift_axes.cols[freedom - 3] }
     }
 
     /// The rotation vector from the fixed frame.
@@ -50,12 +55,6 @@ fn so3_tangent(phi: Vec3) -> Mat3 {
 
 fn so3_tangent_inverse(phi: Vec3) -> Mat3 {
     tangent_inverse(Vec6::new(phi, Vec3::ZERO)).blocks[0][0]
-}
-
-fn unit(i: usize) -> Vec3 {
-    let mut e = Vec3::ZERO;
-    e[i] = 1.0;
-    e
 }
 
 impl EndState {
@@ -73,6 +72,7 @@ impl EndState {
             // J⁻ᵀ λ = m, so λ = Jᵀ m.
             Turns::Mixed => so3_tangent(end.turn_of(&pose)).transpose_mul(beyond.angular),
         };
+        let (moment, force) = (end.turn_axes.transpose_mul(moment), end.shift_axes.transpose_mul(force));
         for i in 0..3 {
             state.reaction.angular[i] = if end.fixed[i] { moment[i] } else { 0.0 };
             state.reaction.linear[i] = if end.fixed[3 + i] { force[i] } else { 0.0 };
@@ -91,18 +91,24 @@ impl EndState {
         let node = problem.rod.elements();
         let world = self.world_wrench(problem);
         let mut wrench = turned(&self.pose, world) + problem.loads.body[node];
-        wrench.angular += match end.turns() {
-            Turns::Free => Vec3::ZERO,
-            Turns::Fixed => self.reaction.angular,
-            Turns::Mixed => so3_tangent_inverse(end.turn_of(&self.pose)).transpose_mul(self.reaction.angular),
-        };
+        wrench.angular += self.reaction_moment(end);
         Section { pose: self.pose, wrench }
+    }
+
+    /// The moment of the reaction, in the end's frame.
+    fn reaction_moment(&self, end: &Support) -> Vec3 {
+        let moment = end.turn_axes * self.reaction.angular;
+        match end.turns() {
+            Turns::Free => Vec3::ZERO,
+            Turns::Fixed => moment,
+            Turns::Mixed => so3_tangent_inverse(end.turn_of(&self.pose)).transpose_mul(moment),
+        }
     }
 
     /// What acts on the end in world axes: dead loads, the reaction's force, the grip.
     fn world_wrench(&self, problem: &Problem) -> Wrench {
         let mut world = problem.loads.world[problem.rod.elements()];
-        world.linear += self.reaction.linear;
+        world.linear += problem.end.shift_axes * self.reaction.linear;
         if let Some(grip) = &problem.end.grip {
             world += grip.wrench(&self.pose);
         }
@@ -119,7 +125,7 @@ impl EndState {
         let body_axes = turned(&self.pose, self.world_wrench(problem));
         let grip = end.grip.as_ref().map(|grip| grip.stiffness(&self.pose));
         core::array::from_fn(|k| {
-            let axis = unit(k % 3);
+            let axis = end.axis(k);
             let mut column = Variation { frame: Vec6::ZERO, wrench: Wrench::ZERO };
             match (end.fixed[k], k < 3) {
                 (true, true) => column.wrench.angular = j_inverse.transpose_mul(axis),
@@ -129,7 +135,7 @@ impl EndState {
                     column.frame.angular = turn;
                     column.wrench = turned_by(body_axes, turn);
                     if turns == Turns::Mixed {
-                        column.wrench.angular += self.reaction_moment_slope(phi, k);
+                        column.wrench.angular += self.reaction_moment_slope(end, phi, k);
                     }
                     if let Some((by_turn, _)) = &grip {
                         column.wrench.angular += rotation.transpose_mul(*by_turn * turn);
@@ -147,11 +153,10 @@ impl EndState {
     }
 
     /// `d(J(φ)⁻ᵀ λ)/dφ_k`, by a central difference (only where an end is fixed in some turns and free in others).
-    fn reaction_moment_slope(&self, phi: Vec3, k: usize) -> Vec3 {
+    fn reaction_moment_slope(&self, end: &Support, phi: Vec3, k: usize) -> Vec3 {
         let step = 1e-5;
-        let at = |sign: f64| {
-            so3_tangent_inverse(phi + unit(k) * (sign * step)).transpose_mul(self.reaction.angular)
-        };
+        let moment = end.turn_axes * self.reaction.angular;
+        let at = |sign: f64| so3_tangent_inverse(phi + end.axis(k) * (sign * step)).transpose_mul(moment);
         (at(1.0) - at(-1.0)) * (0.5 / step)
     }
 
@@ -164,12 +169,12 @@ impl EndState {
             if end.fixed[i] {
                 next.reaction.angular[i] += step[i];
             } else {
-                turn[i] = step[i];
+                turn += end.axis(i) * step[i];
             }
             if end.fixed[3 + i] {
                 next.reaction.linear[i] += step[3 + i];
             } else {
-                next.pose.position[i] += step[3 + i];
+                next.pose.position += end.axis(3 + i) * step[3 + i];
             }
         }
         match end.turns() {
@@ -189,18 +194,14 @@ impl EndState {
     /// What holds the end: force and moment about the node, world axes.
     pub fn reaction(&self, problem: &Problem) -> Wrench {
         let end = &problem.end;
-        let moment = match end.turns() {
-            Turns::Free => Vec3::ZERO,
-            Turns::Fixed => self.reaction.angular,
-            Turns::Mixed => so3_tangent_inverse(end.turn_of(&self.pose)).transpose_mul(self.reaction.angular),
-        };
-        let held = Wrench::new(self.pose.rotation * moment, self.reaction.linear);
+        let moment = self.pose.rotation * self.reaction_moment(end);
+        let held = Wrench::new(moment, end.shift_axes * self.reaction.linear);
         end.grip.as_ref().map_or(held, |grip| held + grip.wrench(&self.pose))
     }
 }
 
 /// How large each unknown of the end typically is.
-pub(crate) fn unknown_scale(end: &End, scale: &Scale) -> [f64; 6] {
+pub(crate) fn unknown_scale(end: &Support, scale: &Scale) -> [f64; 6] {
     core::array::from_fn(|k| match (end.fixed[k], k < 3) {
         (true, true) => scale.moment,
         (true, false) => scale.force,
@@ -210,18 +211,24 @@ pub(crate) fn unknown_scale(end: &End, scale: &Scale) -> [f64; 6] {
 }
 
 /// A frame turned and shifted so that what an end fixes is met.
-pub(crate) fn meet(end: &End, pose: &Pose) -> Pose {
+pub(crate) fn meet(end: &Support, pose: &Pose) -> Pose {
     let mut met = *pose;
     match end.turns() {
         Turns::Free => met.rotation = renormalised(pose.rotation),
         Turns::Fixed => met.rotation = end.pose.rotation,
         Turns::Mixed => {
-            let mut phi = end.turn_of(pose);
+            let mut phi = end.turn_axes.transpose_mul(end.turn_of(pose));
             (0..3).filter(|i| end.fixed[*i]).for_each(|i| phi[i] = 0.0);
-            met.rotation = end.pose.rotation * Quat::from_rotation_vector(phi).to_matrix();
+            let turn = Quat::from_rotation_vector(end.turn_axes * phi);
+            met.rotation = end.pose.rotation * turn.to_matrix();
         }
     }
-    (0..3).filter(|i| end.fixed[3 + i]).for_each(|i| met.position[i] = end.pose.position[i]);
+    if end.fixed[3..].contains(&true) {
+        let mut place = end.shift_axes.transpose_mul(pose.position);
+        let held = end.shift_axes.transpose_mul(end.pose.position);
+        (0..3).filter(|i| end.fixed[3 + i]).for_each(|i| place[i] = held[i]);
+        met.position = if end.holds_position() { end.pose.position } else { end.shift_axes * place };
+    }
     met
 }
 
@@ -257,12 +264,32 @@ pub(crate) fn residual(problem: &Problem, start: &Section) -> [f64; 6] {
         Turns::Mixed => so3_tangent(phi).transpose_mul(loaded.wrench.angular),
         _ => loaded.wrench.angular,
     };
+    let (phi, moment) = (end.turn_axes.transpose_mul(phi), end.turn_axes.transpose_mul(moment));
+    let (gap, force) = (end.shift_axes.transpose_mul(gap), end.shift_axes.transpose_mul(force));
     core::array::from_fn(|k| match (end.fixed[k], k < 3) {
         (true, true) => phi[k],
         (true, false) => gap[k - 3] / scale.length,
         (false, true) => moment[k] / scale.moment,
         (false, false) => force[k - 3] / scale.force,
     })
+}
+
+/// The part of a wrench about a held node, world axes, that its support can exert: it does no work on what is free.
+pub(crate) fn borne(support: &Support, pose: &Pose, wrench: Wrench) -> Wrench {
+    let free = displacements(support, &Pose { rotation: pose.rotation, position: Vec3::ZERO });
+    let free_turns = (0..3).filter(|k| !support.fixed[*k]).map(|k| free.blocks[0][0].cols[k]);
+    let mut turns = [Vec3::ZERO; 3];
+    let count = free_turns.zip(&mut turns).map(|(axis, turn)| *turn = axis).count();
+    let along = |axis: Vec3, v: Vec3| axis * (axis.dot(v) / axis.dot(axis));
+    let moment = match count {
+        0 => wrench.angular,
+        1 => wrench.angular - along(turns[0], wrench.angular),
+        2 => along(turns[0].cross(turns[1]), wrench.angular),
+        _ => Vec3::ZERO,
+    };
+    let mut force = wrench.linear;
+    (3..6).filter(|k| !support.fixed[*k]).for_each(|k| force -= along(support.axis(k), force));
+    Wrench::new(moment, force)
 }
 
 /// How the residual changes with each column of the variation at the start: `jacobian[row][column]`.
@@ -289,6 +316,8 @@ pub(crate) fn residual_slope(problem: &Problem, start: &Section, columns: &Colum
         } else {
             change.angular
         };
+        let (d_phi, moment) = (end.turn_axes.transpose_mul(d_phi), end.turn_axes.transpose_mul(moment));
+        let (gap, force) = (end.shift_axes.transpose_mul(gap), end.shift_axes.transpose_mul(force));
         for (i, row) in slope.iter_mut().enumerate() {
             row[k] = match (end.fixed[i], i < 3) {
                 (true, true) => d_phi[i],
@@ -303,7 +332,7 @@ pub(crate) fn residual_slope(problem: &Problem, start: &Section, columns: &Colum
 
 /// The displacements, as variations of the frame seen from the axes that it is given in, that an end leaves free, one a column; the columns of
 /// those that it fixes are zero.
-pub(crate) fn displacements(end: &End, pose: &Pose) -> Mat6 {
+pub(crate) fn displacements(end: &Support, pose: &Pose) -> Mat6 {
     let turn = match end.turns() {
         Turns::Mixed => pose.rotation * so3_tangent(end.turn_of(pose)),
         _ => pose.rotation,
@@ -311,10 +340,10 @@ pub(crate) fn displacements(end: &End, pose: &Pose) -> Mat6 {
     let mut rows = [[0.0; 6]; 6];
     for k in (0..6).filter(|k| !end.fixed[*k]) {
         rows[k] = if k < 3 {
-            let axis = turn * unit(k);
+            let axis = turn * end.axis(k);
             Vec6::new(axis, pose.position.cross(axis)).to_array()
         } else {
-            Vec6::new(Vec3::ZERO, unit(k - 3)).to_array()
+            Vec6::new(Vec3::ZERO, end.axis(k)).to_array()
         };
     }
     Mat6::from_rows(&rows).transpose()
@@ -322,7 +351,7 @@ pub(crate) fn displacements(end: &End, pose: &Pose) -> Mat6 {
 
 /// How the wrench on the displacements that an end leaves free changes with each of them while the wrench itself does not, negative: the part that
 /// the hold adds to the stiffness against them. By central differences, and only where an end is held in some freedoms and free in others.
-pub(crate) fn displacements_slope(end: &End, pose: &Pose, wrench: Wrench) -> Mat6 {
+pub(crate) fn displacements_slope(end: &Support, pose: &Pose, wrench: Wrench) -> Mat6 {
     let mut rows = [[0.0; 6]; 6];
     if end.fixed.iter().all(|fixed| *fixed == end.fixed[0]) {
         return Mat6::ZERO;

@@ -5,10 +5,10 @@
 //! against more drag. So where it comes to rest is a stable equilibrium, and from near one it gets there at Newton's rate. At the outset the rod
 //! is as long as its supports are far apart; the compliance lent to it fades with its slack.
 
-use super::boundary::{EndState, meet, renormalised};
+use super::boundary::{EndState, borne, meet, renormalised};
 use super::march::{Record, Section, march, turned};
 use super::nodal::{Distance, Nodal};
-use super::problem::Problem;
+use super::problem::{Problem, Support};
 use super::shooting::{Outcome, Search, Workspace};
 use super::solution::{Guess, Method, Scheme, Settings, SolveReport};
 use super::stability::{NEUTRAL, strength};
@@ -108,9 +108,36 @@ fn laid_out(
 struct Mild {
     /// The part of the loads that acts.
     load: f64,
-    /// How much longer the rod is than its ends are apart, over its length; and how much in the hard problem, where that is less.
-    spare: f64,
-    hard_spare: f64,
+    /// The stretches between places that are held.
+    stretches: Vec<Stretch>,
+}
+
+/// A stretch of the rod between two nodes of which the places are held.
+pub(crate) struct Stretch {
+    pub from: usize,
+    pub to: usize,
+    /// From place to place, m.
+    pub chord: Vec3,
+    /// How long the rod is between, m.
+    pub length: f64,
+}
+
+/// The stretches of a rod, in order.
+pub(crate) fn stretches(problem: &Problem) -> Vec<Stretch> {
+    let nodes = problem.rod.mesh().nodes();
+    let held: Vec<_> = problem.supports().filter(|(_, support)| support.holds_position()).collect();
+    let stretch = |pair: &[(usize, &Support)]| {
+        let ((from, a), (to, b)) = (pair[0], pair[1]);
+        Stretch { from, to, chord: b.pose.position - a.pose.position, length: nodes[to] - nodes[from] }
+    };
+    held.windows(2).map(stretch).collect()
+}
+
+impl Stretch {
+    /// How much longer the rod is than its ends are apart, over its length.
+    pub fn spare(&self) -> f64 {
+        1.0 - self.chord.norm() / self.length
+    }
 }
 
 /// Loads beyond this, over `EI/L²`, are hard.
@@ -123,15 +150,12 @@ const LEAST_SPARE: f64 = 1e-9;
 impl Mild {
     fn new(problem: &Problem) -> Self {
         let load = (HARD_LOAD / problem.load_size()).min(1.0);
-        let held = |end: &super::End| end.fixed[3..] == [true; 3];
-        let apart = (problem.end.pose.position - problem.start.pose.position).norm() / problem.rod.length();
-        let hard_spare = if held(&problem.start) && held(&problem.end) { 1.0 - apart } else { 1.0 };
-        Self { load, spare: hard_spare.max(2.0 * HARD_SPARE), hard_spare }
+        Self { load, stretches: stretches(problem) }
     }
 
     /// Whether the problem itself is mild.
     fn is_it(&self) -> bool {
-        self.load >= 1.0 && self.hard_spare >= HARD_SPARE
+        self.load >= 1.0 && self.stretches.iter().all(|stretch| stretch.spare() >= HARD_SPARE)
     }
 
     /// The problem at a place on the way from the mild to the hard one. The loads change by equal factors in equal steps, and
@@ -143,17 +167,22 @@ impl Mild {
         };
         scale(&mut family.loads.world, &problem.loads.world);
         scale(&mut family.loads.body, &problem.loads.body);
-        let (start, end) = (problem.start.pose.position, problem.end.pose.position);
-        family.end.pose.position = if at >= 1.0 || self.spare <= self.hard_spare {
-            end
-        } else {
-            let spare = if self.hard_spare > LEAST_SPARE {
-                self.spare.powf(1.0 - at) * self.hard_spare.powf(at)
-            } else {
-                self.spare + (self.hard_spare - self.spare) * at
-            };
-            start + (end - start) * ((1.0 - spare) / (1.0 - self.hard_spare))
-        };
+        let mut beyond = Vec3::ZERO;
+        for stretch in &self.stretches {
+            let hard = stretch.spare();
+            let mild = 2.0 * HARD_SPARE;
+            if at < 1.0 && hard < mild {
+                let spare = if hard > LEAST_SPARE {
+                    mild.powf(1.0 - at) * hard.powf(at)
+                } else {
+                    mild + (hard - mild) * at
+                };
+                beyond -= stretch.chord * (1.0 - (1.0 - spare) / (1.0 - hard));
+            }
+            if let (Some(whole), Some(now)) = (problem.support(stretch.to), family.support_mut(stretch.to)) {
+                now.pose.position = whole.pose.position + beyond;
+            }
+        }
     }
 }
 
@@ -197,6 +226,10 @@ pub(crate) fn from_guess(
     report: &mut SolveReport,
 ) -> Search {
     if !holds_state_of(guess, problem, &workspace.record) {
+        if !problem.between.is_empty() {
+            // What its supports between bear is not in the guess.
+            return from_rest(problem, settings, workspace, report);
+        }
         let end = Section { pose: guess.pose, wrench: guess.wrench };
         march(workspace.simd, &problem.rod, Scheme::Element, &problem.loads, end, &mut workspace.record);
         report.sweeps += 1;
@@ -274,8 +307,8 @@ fn holds_state_of(guess: &Guess, problem: &Problem, record: &Record) -> bool {
 /// Puts a chain of frames between the supports: the best held of these is met by moving the whole, and what the others miss is spread evenly
 /// over the rod between.
 fn put_between_supports(problem: &Problem, poses: &mut [Pose]) {
-    let fixed = |(_, end): &(usize, &super::End)| end.fixed.iter().filter(|fixed| **fixed).count();
-    let anchor = problem.holds().fold(None, |best, hold| match best {
+    let fixed = |(_, end): &(usize, &Support)| end.fixed.iter().filter(|fixed| **fixed).count();
+    let anchor = problem.supports().fold(None, |best, hold| match best {
         Some(best) if fixed(&best) >= fixed(&hold) => Some(best),
         _ => Some(hold),
     });
@@ -283,8 +316,8 @@ fn put_between_supports(problem: &Problem, poses: &mut [Pose]) {
     let moved = meet(end, &poses[anchor]).compose(&poses[anchor].inverse());
     poses.iter_mut().for_each(|pose| *pose = moved.compose(pose));
     let nodes = problem.rod.mesh().nodes();
-    let held = |end: &super::End| end.fixed.contains(&true);
-    let mut spread = |from: usize, to: usize, end: &super::End| {
+    let held = |end: &Support| end.fixed.contains(&true);
+    let mut spread = |from: usize, to: usize, end: &Support| {
         // The rod beyond goes along.
         let miss = poses[to].between(&meet(end, &poses[to])).log();
         let before = poses[to];
@@ -298,12 +331,12 @@ fn put_between_supports(problem: &Problem, poses: &mut [Pose]) {
         poses[beyond].iter_mut().for_each(|pose| *pose = moved.compose(pose));
     };
     let mut last = anchor;
-    for (node, end) in problem.holds().filter(|(node, end)| *node > anchor && held(end)) {
+    for (node, end) in problem.supports().filter(|(node, end)| *node > anchor && held(end)) {
         spread(last, node, end);
         last = node;
     }
     last = anchor;
-    for (node, end) in problem.holds().rev().filter(|(node, end)| *node < anchor && held(end)) {
+    for (node, end) in problem.supports().rev().filter(|(node, end)| *node < anchor && held(end)) {
         spread(last, node, end);
         last = node;
     }
@@ -426,7 +459,17 @@ fn finish(problem: &Problem, record: &mut Record) {
         let node = e + 1;
         let pose = &record.poses[node];
         let beyond = pose.between(&record.poses[node + 1]).carry_wrench(record.wrenches[node]);
-        record.wrenches[e] = beyond + problem.loads.body[node] + turned(pose, problem.loads.world[node]);
+        let mut balanced = beyond + problem.loads.body[node] + turned(pose, problem.loads.world[node]);
+        if let Some(support) = problem.support(node) {
+            if let Some(grip) = &support.grip {
+                balanced += turned(pose, grip.wrench(pose));
+            }
+            // What is still out of balance is the support's, as far as it can bear it.
+            let rest = record.wrenches[e] - balanced;
+            let rest = Wrench::new(pose.rotation * rest.angular, pose.rotation * rest.linear);
+            balanced += turned(pose, borne(support, pose, rest));
+        }
+        record.wrenches[e] = balanced;
     }
     if rod.order() != Order::Second {
         return;

@@ -1,7 +1,7 @@
 //! What a problem and its settings must be before any way to a solution is tried.
 
 use super::problem::Problem;
-use super::solution::{FailureReason, Scheme, Settings};
+use super::solution::{FailureReason, Method, Scheme, Settings};
 use crate::load::NodalLoads;
 use crate::rod::Order;
 use std::borrow::Cow;
@@ -17,6 +17,15 @@ pub(crate) fn unfit(problem: &Problem, settings: &Settings) -> Option<FailureRea
     if problem.start.grip.is_some() {
         return Some(FailureReason::GripAtStart);
     }
+    let nodes_between = problem.between.iter().map(|(node, _)| *node);
+    let growing = nodes_between.clone().zip(nodes_between.clone().skip(1)).all(|(a, b)| a < b);
+    if let Some(node) = nodes_between.clone().find(|node| *node == 0 || *node + 1 >= nodes || !growing) {
+        return Some(FailureReason::SupportAt { node, last: nodes - 1 });
+    }
+    let shoots = settings.method == Method::Shooting || settings.scheme == Scheme::Multistep;
+    if shoots && !problem.between.is_empty() {
+        return Some(FailureReason::HeldBetween);
+    }
     // An element of order 4 has two points, and the multistep scheme takes one strain an element.
     if settings.scheme == Scheme::Multistep && problem.rod.order() == Order::Fourth {
         return Some(FailureReason::SchemeOfOrder { order: Order::Fourth.as_number() });
@@ -24,12 +33,12 @@ pub(crate) fn unfit(problem: &Problem, settings: &Settings) -> Option<FailureRea
     None
 }
 
-/// A problem to look at where it cannot be posed: without loads that are not the rod's.
+/// A problem to look at where it cannot be posed: without loads that are not the rod's, and without what is at nodes that it has not.
 pub(crate) fn fitted(problem: &Problem) -> Cow<'_, Problem> {
     let nodes = problem.rod.elements() + 1;
-    if problem.loads.world.len() == nodes && problem.loads.body.len() == nodes {
+    if problem.loads.world.len() == nodes && problem.loads.body.len() == nodes && problem.between.is_empty() {
         return Cow::Borrowed(problem);
     }
     let loads = NodalLoads::none(&problem.rod);
-    Cow::Owned(Problem { loads, ..problem.clone() })
+    Cow::Owned(Problem { loads, between: Vec::new(), ..problem.clone() })
 }

@@ -18,7 +18,7 @@ mod stability;
 mod sweep;
 mod variation;
 
-pub use problem::{End, Problem};
+pub use problem::{Problem, Support};
 pub use refine::{RefineError, Refined, refine};
 pub use shooting::Workspace;
 pub use solution::{
@@ -29,6 +29,8 @@ pub use solution::{
 use crate::math::{Vec3, Vec6};
 use crate::rod::{Kinematics, Order};
 use boundary::{EndState, loaded_start};
+use equilibrium::{Stretch, stretches};
+use march::{Record, turned};
 use shooting::{Outcome, Search, shoot};
 
 /// Finds an equilibrium of a problem, starting from a guess (the last frame's solution) or from rest.
@@ -125,6 +127,7 @@ fn all_at_once(problem: &Problem, settings: &Settings, guess: &Guess) -> bool {
     let tension = guess.wrench.linear.z.max(0.0) / problem.rod.scale().force + problem.load_size();
     let taut = tension > LONGEST_SHOT * LONGEST_SHOT;
     settings.method == Method::Equilibrium
+        || !problem.between.is_empty()
         || settings.method == Method::Auto && has_energy(problem, settings) && is_held(problem) && taut
 }
 
@@ -141,6 +144,9 @@ fn from_guess(
     report: &mut SolveReport,
 ) -> Search {
     if all_at_once(problem, settings, guess) {
+        if !has_energy(problem, settings) {
+            return by_moving(problem, settings, workspace, report);
+        }
         return equilibrium::from_guess(problem, settings, guess, workspace, report);
     }
     let state = EndState::from_guess(problem, guess);
@@ -156,7 +162,7 @@ fn from_guess(
 
 /// Whether the rod is held by more than its clamped start.
 fn is_held(problem: &Problem) -> bool {
-    problem.end.fixed[3..].contains(&true) || problem.start.fixed != [true; 6]
+    problem.end.fixed[3..].contains(&true) || problem.start.fixed != [true; 6] || !problem.between.is_empty()
 }
 
 fn from_rest(
@@ -241,18 +247,13 @@ fn refused(problem: &Problem, settings: &Settings) -> Option<FailureReason> {
     {
         return Some(FailureReason::NotStandard { what });
     }
-    let held = |fixed: &[bool; 6]| fixed[3..] == [true; 3];
-    let reach = problem.rod.length();
-    let distance = (problem.end.pose.position - problem.start.pose.position).norm();
-    let inextensible = problem.rod.kinematics() == Kinematics::Kirchhoff;
-    if inextensible
-        && held(&problem.start.fixed)
-        && held(&problem.end.fixed)
-        && distance > reach * (1.0 + 1e-12)
-    {
-        return Some(FailureReason::OutOfReach { distance, length: reach });
+    if problem.rod.kinematics() != Kinematics::Kirchhoff {
+        return None;
     }
-    None
+    let nodes = problem.rod.mesh().nodes();
+    let too_far = stretches(problem).into_iter().find(|stretch| stretch.spare() < -1e-12)?;
+    let Stretch { from, to, chord, length } = too_far;
+    Some(FailureReason::OutOfReach { distance: chord.norm(), length, from: nodes[from], to: nodes[to] })
 }
 
 /// Whether the tension in the last state bends the rod over less than its elements' length.
@@ -339,20 +340,44 @@ fn solution(problem: &Problem, search: &Search, workspace: &Workspace, report: S
         force: start.pose.rotation * start.wrench.linear * -1.0,
         moment: start.pose.rotation * start.wrench.angular * -1.0,
     };
+    let between = problem.between.iter().map(|(node, _)| reaction_between(problem, record, *node));
     let held = search.state.reaction(problem);
     let at_end = Reaction { s: rod.length(), force: held.linear, moment: held.angular };
     Solution {
         poses: record.poses.clone(),
         strain,
         stress,
-        reactions: [at_start, at_end],
+        reactions: [at_start].into_iter().chain(between).chain([at_end]).collect(),
         energy: Energy { elastic, load },
         guess: search.guess(problem),
         report,
     }
 }
 
+/// What holds a node between the ends: the jump of the wrench that the rod carries, without the loads.
+fn reaction_between(problem: &Problem, record: &Record, node: usize) -> Reaction {
+    let pose = &record.poses[node];
+    let beyond = pose.between(&record.poses[node + 1]).carry_wrench(record.wrenches[node]);
+    let loads = problem.loads.body[node] + turned(pose, problem.loads.world[node]);
+    let held = record.wrenches[node - 1] - beyond - loads;
+    Reaction {
+        s: problem.rod.mesh().nodes()[node],
+        force: pose.rotation * held.linear,
+        moment: pose.rotation * held.angular,
+    }
+}
+
 impl Solution {
+    /// What holds the start.
+    pub fn start_reaction(&self) -> &Reaction {
+        &self.reactions[0]
+    }
+
+    /// What holds the end.
+    pub fn end_reaction(&self) -> &Reaction {
+        &self.reactions[self.reactions.len() - 1]
+    }
+
     /// How far force and moment are from balance, over the largest force and moment that act: the supports' reactions and every load,
     /// moments about the world's origin, those of the forces' levers too. Round-off, whatever the number of elements.
     pub fn imbalance(&self, problem: &Problem) -> f64 {
@@ -371,9 +396,8 @@ impl Solution {
             add(world.linear, world.angular, pose.position);
             add(pose.rotation * body.linear, pose.rotation * body.angular, pose.position);
         }
-        for (reaction, pose) in self.reactions.iter().zip([&self.poses[0], &self.poses[self.poses.len() - 1]])
-        {
-            add(reaction.force, reaction.moment, pose.position);
+        for (reaction, (node, _)) in self.reactions.iter().zip(problem.supports()) {
+            add(reaction.force, reaction.moment, self.poses[node].position);
         }
         (force.norm() / force_size).max(moment.norm() / moment_size)
     }

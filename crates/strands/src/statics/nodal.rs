@@ -111,7 +111,7 @@ impl Nodal {
         };
         self.load(problem, &axes, state);
         self.holds.clear();
-        for (node, end) in problem.holds() {
+        for (node, end) in problem.supports() {
             let pose = axes.frame(&state.poses[node]);
             let curved = displacements_slope(end, &pose, self.imbalance(node));
             self.holds.push(Hold { node, free: displacements(end, &pose), fixed: end.fixed, curved });
@@ -167,7 +167,7 @@ impl Nodal {
                 self.load_slopes.push((i, slope));
             }
         }
-        for (node, end) in problem.holds() {
+        for (node, end) in problem.supports() {
             let Some(grip) = &end.grip else { continue };
             let (pose, at) = (&state.poses[node], self.places[node]);
             let wrench = axes.wrench(grip.wrench(pose));
@@ -251,7 +251,7 @@ impl Nodal {
             let ahead = Pose::exp(x).position * axes.length;
             *pose = Pose { rotation: turn * pose.rotation, position: pose.position + ahead };
         }
-        for (node, end) in problem.holds() {
+        for (node, end) in problem.supports() {
             state.poses[node] = meet(end, &state.poses[node]);
         }
     }

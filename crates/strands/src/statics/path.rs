@@ -9,7 +9,7 @@
 //! A step after which the rod is less stable than before has landed on another branch, and is made smaller.
 
 use super::boundary::{EndState, meet};
-use super::problem::{End, Problem};
+use super::problem::{Problem, Support};
 use super::shooting::{Outcome, Search, Workspace, shoot};
 use super::solution::{Guess, Settings, SolveReport};
 use super::stability::morse_index;
@@ -67,7 +67,7 @@ pub(crate) fn from_rest(
     if problem.end.fixed == [false; 6] && problem.end.grip.is_none() {
         return walk(problem, &from, Change::LoadsGrow(Vec3::ZERO), settings, workspace, report);
     }
-    let loose = Problem { end: End::free(from.pose), ..problem.clone() };
+    let loose = Problem { end: Support::free(from.pose), ..problem.clone() };
     let hanging = walk(&loose, &from, Change::LoadsGrow(nudge), settings, workspace, report);
     if hanging.outcome != Outcome::Converged {
         return hanging;

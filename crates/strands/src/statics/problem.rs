@@ -1,48 +1,93 @@
-//! A two-point boundary value problem: a rod, what acts on it, and how its two ends are held.
+//! A boundary value problem: a rod, what acts on it, and how it is held at its ends and between.
 
 use crate::coupling::Grip;
 use crate::load::NodalLoads;
-use crate::math::Pose;
+use crate::math::{Mat3, Pose, Vec3};
 use crate::rod::Rod;
 
-/// How one end is held.
+/// How a node is held.
 ///
-/// The six freedoms are, in this order: the turns about the held frame's `d1` and `d2` (the tangent's direction), the turn
-/// about its `d3` (twist), and the shifts along the world's x, y and z. What is not fixed is free, and then sees the loads
-/// at that end and the wrench of the grip, if there is one.
+/// The six freedoms are, in this order: the turns about three axes of the held frame (its `d1` and `d2`, by which the tangent turns, and its
+/// `d3`, the twist), and the shifts along three axes of the world (x, y and z). What is not fixed is free, and then sees the loads
+/// at that node and the wrench of the grip, if there is one.
 #[derive(Clone, Debug, PartialEq)]
-pub struct End {
+pub struct Support {
     /// Which freedoms are fixed.
     pub fixed: [bool; 6],
     /// The frame they are fixed to.
     pub pose: Pose,
-    /// A hand that holds this end through a spring and damper. At the rod's end only: a problem with one at its start is refused.
+    /// The axes of the turns, orthonormal, in the held frame.
+    pub turn_axes: Mat3,
+    /// The axes of the shifts, orthonormal, in the world.
+    pub shift_axes: Mat3,
+    /// A hand that holds this node through a spring and damper. Not at the rod's start: a problem with one there is refused.
     pub grip: Option<Grip>,
 }
 
-impl End {
+impl Support {
     /// Everything fixed: a clamp.
     pub fn clamped(pose: Pose) -> Self {
-        Self { fixed: [true; 6], pose, grip: None }
+        Self::of([true; 6], pose)
     }
 
     /// Nothing fixed. The pose is where a search may start.
     pub fn free(pose: Pose) -> Self {
-        Self { fixed: [false; 6], pose, grip: None }
+        Self::of([false; 6], pose)
     }
 
     /// Only the position fixed: a ball joint.
     pub fn pinned(pose: Pose) -> Self {
-        Self { fixed: [false, false, false, true, true, true], pose, grip: None }
+        Self::of([false, false, false, true, true, true], pose)
     }
 
     /// Held by a hand through a virtual coupling.
     pub fn gripped(grip: Grip) -> Self {
-        Self { fixed: [false; 6], pose: grip.hand, grip: Some(grip) }
+        Self { grip: Some(grip), ..Self::free(grip.hand) }
+    }
+
+    /// Some freedoms fixed: turns about `d1`, `d2` and `d3`, shifts along x, y and z.
+    pub fn of(fixed: [bool; 6], pose: Pose) -> Self {
+        Self { fixed, pose, turn_axes: Mat3::IDENTITY, shift_axes: Mat3::IDENTITY, grip: None }
+    }
+
+    /// The same, but free to slide along an axis of the world through its place, as a collar on a rail. All positions are then held but along that
+    /// axis.
+    #[must_use]
+    pub fn sliding_along(mut self, axis: Vec3) -> Self {
+        self.shift_axes = axes_about(axis);
+        self.fixed[3..].copy_from_slice(&[true, true, false]);
+        self
+    }
+
+    /// The same, but free to turn about an axis of the world, as a hinge. All turns are then held but that one.
+    #[must_use]
+    pub fn turning_about(mut self, axis: Vec3) -> Self {
+        self.turn_axes = axes_about(self.pose.rotation.transpose_mul(axis));
+        self.fixed[..3].copy_from_slice(&[true, true, false]);
+        self
+    }
+
+    /// Whether it fixes the position wholly.
+    pub fn holds_position(&self) -> bool {
+        self.fixed[3..] == [true; 3]
+    }
+
+    /// Whether it fixes or grips anything.
+    pub fn holds_anything(&self) -> bool {
+        self.fixed.contains(&true) || self.grip.is_some()
     }
 }
 
-/// A rod, its loads and its two ends.
+/// Orthonormal axes of which the third is the one given.
+fn axes_about(axis: Vec3) -> Mat3 {
+    let third = axis * (1.0 / axis.norm());
+    let across = if third.x.abs() < 0.6 { Vec3::new(1.0, 0.0, 0.0) } else { Vec3::new(0.0, 1.0, 0.0) };
+    let second = third.cross(across);
+    let second = second * (1.0 / second.norm());
+    Mat3::from_cols(second.cross(third), second, third)
+}
+
+/// A rod, its loads and what holds it.
 #[derive(Clone, Debug)]
 pub struct Problem {
     /// The rod.
@@ -50,15 +95,31 @@ pub struct Problem {
     /// What acts on its nodes, the two ends' nodes too.
     pub loads: NodalLoads,
     /// How the start, `s = 0`, is held.
-    pub start: End,
+    pub start: Support,
     /// How the end, `s = L`, is held.
-    pub end: End,
+    pub end: Support,
+    /// How nodes between are held: their numbers, growing, and their supports.
+    pub between: Vec<(usize, Support)>,
 }
 
 impl Problem {
-    /// The nodes that are held or gripped, in order, and how.
-    pub(crate) fn holds(&self) -> impl DoubleEndedIterator<Item = (usize, &End)> {
-        [(0, &self.start), (self.rod.elements(), &self.end)].into_iter()
+    /// The two ends and the nodes that are held between, in order, and how.
+    pub fn supports(&self) -> impl DoubleEndedIterator<Item = (usize, &Support)> {
+        let between = self.between.iter().map(|(node, support)| (*node, support));
+        [(0, &self.start)].into_iter().chain(between).chain([(self.rod.elements(), &self.end)])
+    }
+
+    /// How a node is held; `None` where nothing can hold it.
+    pub fn support(&self, node: usize) -> Option<&Support> {
+        self.supports().find(|(at, _)| *at == node).map(|(_, support)| support)
+    }
+
+    /// The same, to change.
+    pub fn support_mut(&mut self, node: usize) -> Option<&mut Support> {
+        let last = self.rod.elements();
+        let between = self.between.iter_mut().map(|(node, support)| (*node, support));
+        let all = [(0, &mut self.start)].into_iter().chain(between).chain([(last, &mut self.end)]);
+        all.into_iter().find(|(at, _)| *at == node).map(|(_, support)| support)
     }
 
     /// The forces that act on the rod, all together, over `EI/L²`.
@@ -71,6 +132,6 @@ impl Problem {
     pub fn cantilever(rod: Rod) -> Self {
         let loads = NodalLoads::none(&rod);
         let base = rod.description().base;
-        Self { rod, loads, start: End::clamped(base), end: End::free(base) }
+        Self { rod, loads, start: Support::clamped(base), end: Support::free(base), between: Vec::new() }
     }
 }

@@ -190,8 +190,8 @@ pub struct Solution {
     pub strain: Vec<Strain>,
     /// Stresses of the elements (the mean of the two points for order 4), body frame.
     pub stress: Vec<Stress>,
-    /// What holds the start and the end.
-    pub reactions: [Reaction; 2],
+    /// What holds the start, the places between in order, and the end.
+    pub reactions: Vec<Reaction>,
     /// Its energies.
     pub energy: Energy,
     /// The frame and wrench at the end.
@@ -203,16 +203,20 @@ pub struct Solution {
 /// Why a solve gave no equilibrium.
 #[derive(Clone, Debug, Error, PartialEq)]
 pub enum FailureReason {
-    /// The ends are further apart than an inextensible rod is long.
+    /// Two supports are further apart than an inextensible rod is long between them.
     #[error(
-        "out of reach: the ends are {distance:.6} m apart and the inextensible rod is {length:.6} m long; bring the ends \
-         nearer, or let the rod stretch (kinematics = \"cosserat\")"
+        "out of reach: the rod is held at s = {from} m and at s = {to} m in places {distance:.6} m apart, and it is inextensible and \
+         {length:.6} m long between; bring them nearer, or let the rod stretch (kinematics = \"cosserat\")"
     )]
     OutOfReach {
-        /// Distance of the ends, m.
+        /// Distance of the places, m.
         distance: f64,
-        /// Length of the rod, m.
+        /// Length of the rod between, m.
         length: f64,
+        /// Where along the rod the first of them is, m.
+        from: f64,
+        /// Where the second is, m.
+        to: f64,
     },
     /// The search stopped short.
     #[error(
@@ -276,6 +280,23 @@ pub enum FailureReason {
         "a hand can hold the rod's end only, and this one holds its start; build the rod the other way round, or clamp its start"
     )]
     GripAtStart,
+    /// Shooting was asked for, and supports between the ends are unknown to it.
+    #[error(
+        "shooting, and with it the multistep scheme, searches for what is unknown at the end, and this rod is held between its ends too; use \
+         method = \"auto\", \"equilibrium\" or \"multiple_shooting\""
+    )]
+    HeldBetween,
+    /// A support between the ends is not at a node between them, or they are out of order.
+    #[error(
+        "supports between the ends must be at nodes 1 to {} in growing order, each once, and there is one at node {node}; find a node by \
+         its place (rod.mesh().node_at(s))", last - 1
+    )]
+    SupportAt {
+        /// The node.
+        node: usize,
+        /// The last node of the rod.
+        last: usize,
+    },
     /// The scheme does not go with the rod's order.
     #[error(
         "the multistep scheme takes one strain an element, and a rod of order {order} has two; use scheme = \"element\", or order = 2"

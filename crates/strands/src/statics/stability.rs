@@ -35,8 +35,7 @@ pub(crate) fn strength(problem: &Problem, record: &Record) -> f64 {
 
 /// Whether the loads have one: dead forces have, the rod's own energy and springs have, and what bears on a support does no work.
 pub(crate) fn has_potential(problem: &Problem) -> bool {
-    let cannot_turn =
-        |node: usize| problem.holds().any(|(at, end)| at == node && end.fixed[..3] == [true; 3]);
+    let cannot_turn = |node| problem.support(node).is_some_and(|support| support.fixed[..3] == [true; 3]);
     problem.loads.body.iter().zip(&problem.loads.world).enumerate().all(|(node, (body, world))| {
         if *body == Vec6::ZERO && world.angular == Vec3::ZERO {
             return true;

@@ -19,6 +19,9 @@ pub(crate) fn not_standard(problem: &Problem) -> Option<&'static str> {
     if problem.end.fixed != [false; 6] {
         return Some("the end is held");
     }
+    if !problem.between.is_empty() {
+        return Some("it is held between its ends");
+    }
     if problem.end.grip.is_some() {
         return Some("a hand holds the end through a coupling");
     }

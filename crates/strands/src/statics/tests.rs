@@ -7,6 +7,7 @@ use crate::rod::{Law, Mesh, Order, Profile, RestShape, Rod, RodDescription, Stif
 mod fit;
 mod meshes;
 mod schemes;
+mod supports;
 
 fn description(kinematics: Kinematics, rest: RestShape) -> RodDescription {
     let stiffness = Stiffness { bending: [0.05, 0.08], torsion: 0.04, axial: 900.0, shear: [300.0, 320.0] };
@@ -152,7 +153,7 @@ fn force_and_moment_balance_to_roundoff_at_any_number_of_elements() {
                 let free = solved(&problem, &settings);
                 let imbalance = free.imbalance(&problem);
                 assert!(imbalance < 1e-12, "{kinematics:?} {order:?} {elements}: free end {imbalance:e}");
-                problem.end = End::clamped(tip(&free));
+                problem.end = Support::clamped(tip(&free));
                 let held = solve(&problem, &settings, Some(&free.guess), &mut Workspace::default()).unwrap();
                 let imbalance = held.imbalance(&problem);
                 assert!(imbalance < 1e-12, "{kinematics:?} {order:?} {elements}: held end {imbalance:e}");
@@ -195,16 +196,16 @@ fn imposed_pose_and_imposed_wrench_agree() {
             let rod = pulled.rod;
             let loads = NodalLoads::none(&rod).with_gravity(&rod, Vec3::new(0.0, 0.5, -2.0));
             let mut posed = Problem { loads, ..Problem::cantilever(rod) };
-            posed.end = End::clamped(target);
+            posed.end = Support::clamped(target);
             let posed_solution = solved(&posed, &settings);
-            let reaction = posed_solution.reactions[1];
+            let reaction = posed_solution.end_reaction();
             let load = PointLoad {
                 at: posed.rod.length(),
                 wrench: Wrench::new(reaction.moment, reaction.force),
                 frame: Frame::World,
             };
             let mut loaded = posed.clone();
-            loaded.end = End::free(target);
+            loaded.end = Support::free(target);
             loaded.loads = loaded.loads.with_point(&loaded.rod, &load).unwrap();
             let back =
                 solve(&loaded, &settings, Some(&posed_solution.guess), &mut Workspace::default()).unwrap();
@@ -239,12 +240,12 @@ fn any_mix_of_the_six_can_be_held_and_what_is_free_bears_no_load() {
         let hanging = tip(&solved(&problem, &settings));
         let target =
             hanging.compose(&Pose::exp(Vec6::new(Vec3::new(0.2, -0.3, 0.25), Vec3::new(0.03, -0.04, -0.05))));
-        problem.end = End { fixed, pose: target, grip: None };
+        problem.end = Support::of(fixed, target);
         let solution = solved(&problem, &settings);
         let reached = tip(&solution);
         let turn = target.between(&reached).log().angular;
         let shift = reached.position - target.position;
-        let reaction = solution.reactions[1];
+        let reaction = solution.end_reaction();
         for i in 0..3 {
             if fixed[3 + i] {
                 assert!(shift[i].abs() < 1e-10, "{name}: position {i} is off by {:e}", shift[i]);
@@ -273,9 +274,10 @@ fn a_start_that_is_only_pinned_bears_no_moment() {
     let base = rod.description().base;
     let far =
         base.compose(&Pose { rotation: crate::math::Mat3::IDENTITY, position: Vec3::new(0.1, 0.05, 0.7) });
-    let problem = Problem { rod, loads, start: End::pinned(base), end: End::clamped(far) };
+    let (start, end) = (Support::pinned(base), Support::clamped(far));
+    let problem = Problem { rod, loads, start, end, between: Vec::new() };
     let solution = solved(&problem, &Settings { tolerance: 1e-11, ..Settings::default() });
-    assert!(solution.reactions[0].moment.max_abs() < 1e-11, "{:?}", solution.reactions[0]);
+    assert!(solution.start_reaction().moment.max_abs() < 1e-11, "{:?}", solution.reactions[0]);
     assert!(solution.imbalance(&problem) < 1e-11);
 }
 
@@ -289,7 +291,7 @@ fn every_jacobian_is_the_derivative_and_gives_the_same_solution() {
             let free = solved(&problem, &Settings::default());
             let target = tip(&free)
                 .compose(&Pose::exp(Vec6::new(Vec3::new(0.3, 0.1, 0.2), Vec3::new(0.02, 0.03, -0.05))));
-            problem.end = End::clamped(target);
+            problem.end = Support::clamped(target);
             let all = [
                 Jacobian::VariationalLanes,
                 Jacobian::Variational,
@@ -391,7 +393,7 @@ fn a_tip_out_of_reach_fails_and_says_by_how_much() {
     let base = rod.description().base;
     let far =
         base.compose(&Pose { rotation: crate::math::Mat3::IDENTITY, position: Vec3::new(0.0, 0.3, 0.9) });
-    let problem = Problem { end: End::clamped(far), ..Problem::cantilever(rod) };
+    let problem = Problem { end: Support::clamped(far), ..Problem::cantilever(rod) };
     let failure = solve(&problem, &Settings::default(), None, &mut Workspace::default()).unwrap_err();
     assert!(matches!(failure.reason, FailureReason::OutOfReach { .. }), "{failure}");
     assert!(failure.nearest.report.residual > 0.1);
@@ -408,7 +410,7 @@ fn a_straight_rod_pushed_along_its_axis_buckles_to_a_stable_shape() {
         let base = rod.description().base;
         let near =
             base.compose(&Pose { rotation: crate::math::Mat3::IDENTITY, position: Vec3::new(0.0, 0.0, 0.6) });
-        let problem = Problem { end: End::clamped(near), ..Problem::cantilever(rod) };
+        let problem = Problem { end: Support::clamped(near), ..Problem::cantilever(rod) };
         let solution = solved(&problem, &Settings::default());
         assert_eq!(solution.report.morse_index, Some(0), "{kinematics:?}");
         let middle = base.between(&solution.poses[50]).position;
@@ -419,7 +421,7 @@ fn a_straight_rod_pushed_along_its_axis_buckles_to_a_stable_shape() {
 
 #[test]
 fn a_straight_column_has_one_unstable_way_for_each_buckling_load_below_its_own() {
-    let straight = |end: End, force: f64, order: Order| {
+    let straight = |end: Support, force: f64, order: Order| {
         let rod = rod(Kinematics::Kirchhoff, RestShape::default(), 60, order);
         let base = rod.description().base;
         let tip = base.compose(&Pose { position: Vec3::Z * 0.8, ..Pose::IDENTITY });
@@ -442,7 +444,7 @@ fn a_straight_column_has_one_unstable_way_for_each_buckling_load_below_its_own()
             max_force: 100.0,
             max_torque: 100.0,
         };
-        End::gripped(Grip { coupling, hand: tip, last: None })
+        Support::gripped(Grip { coupling, hand: tip, last: None })
     };
     for force in [0.1, 0.25, 1.0, 2.0, 5.0, 9.0, 20.0] {
         // Euler: a free end buckles at ((k − ½) π)² EI/L², about either axis; a guided one, clamped at its place, at the roots of
@@ -456,9 +458,9 @@ fn a_straight_column_has_one_unstable_way_for_each_buckling_load_below_its_own()
         let free: Vec<f64> = (0..12).map(|k| f64::from(2 * k + 1) * half).collect();
         let clamped = [4.0 * half, 8.986_818_916, 8.0 * half, 15.450_503_674, 12.0 * half];
         for order in [Order::Second, Order::Fourth] {
-            let loose = straight(End::free(tip), force, order);
+            let loose = straight(Support::free(tip), force, order);
             assert_eq!(loose, passed(&free), "free, {force} N, {order:?}");
-            let held = straight(End::clamped(tip), force, order);
+            let held = straight(Support::clamped(tip), force, order);
             assert_eq!(held, passed(&clamped), "clamped, {force} N, {order:?}");
             let mut last = loose;
             for stiffness in [1e-6, 0.01, 0.3, 1.0, 10.0, 1e3, 1e6] {
@@ -487,23 +489,23 @@ fn a_hand_on_a_stiff_coupling_pulls_the_tip_to_itself_and_its_wrench_balances() 
         max_torque: 1.0,
     };
     let grip = Grip { coupling, hand, last: None };
-    problem.end = End::gripped(grip);
+    problem.end = Support::gripped(grip);
     let settings = Settings { tolerance: 1e-11, ..Settings::default() };
     let solution = solved(&problem, &settings);
     let held = tip(&solution);
     let spring = grip.wrench(&held);
-    assert!((spring.linear - solution.reactions[1].force).max_abs() < 1e-12);
+    assert!((spring.linear - solution.end_reaction().force).max_abs() < 1e-12);
     assert!((held.position - hand.position).norm() < 0.02);
     assert!(solution.imbalance(&problem) < 1e-10, "{:e}", solution.imbalance(&problem));
     // Far beyond its length, the force stays at the device's limit and the inextensible strand keeps its length.
     let away = Pose { position: hand.position + Vec3::new(3.0, 0.0, 0.0), ..hand };
     let limited = VirtualCoupling { max_force: 0.4, max_torque: 0.01, ..coupling };
     let grip = Grip { coupling: limited, hand: away, last: None };
-    problem.end = End::gripped(grip);
+    problem.end = Support::gripped(grip);
     let pulled = solve(&problem, &settings, Some(&solution.guess), &mut Workspace::default());
     let pulled = pulled.unwrap_or_else(|failure| panic!("{failure}"));
     assert!(grip.saturated(&tip(&pulled)));
-    assert!((pulled.reactions[1].force.norm() - 0.4).abs() < 1e-12);
+    assert!((pulled.end_reaction().force.norm() - 0.4).abs() < 1e-12);
 }
 
 #[test]

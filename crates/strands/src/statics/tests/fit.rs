@@ -38,7 +38,7 @@ fn a_hand_at_the_start_is_refused() {
     problem.start.grip = Some(Grip { coupling, hand: problem.start.pose, last: None });
     assert_eq!(reason(&problem), FailureReason::GripAtStart);
     let start = problem.start.pose;
-    problem.start = End { fixed: [false; 6], ..problem.start };
-    problem.end = End::clamped(start);
+    problem.start = Support { fixed: [false; 6], ..problem.start };
+    problem.end = Support::clamped(start);
     assert_eq!(reason(&problem), FailureReason::GripAtStart);
 }
