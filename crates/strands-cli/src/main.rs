@@ -3,6 +3,7 @@
 mod args;
 mod bench;
 mod drawing;
+mod many;
 mod new;
 mod overrides;
 mod page;

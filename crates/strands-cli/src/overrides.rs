@@ -15,18 +15,35 @@ pub fn apply(text: &str, is_json: bool, overrides: &Overrides) -> Result<String,
     if changes.is_empty() && overrides.elements.is_none() {
         return Ok(text.to_owned());
     }
+    apply_changes(text, is_json, &changes, overrides.elements)
+}
+
+fn apply_changes(
+    text: &str,
+    is_json: bool,
+    changes: &[Change],
+    elements: Option<usize>,
+) -> Result<String, String> {
     if is_json {
         let Ok(mut scene) = serde_json::from_str(text) else {
             return Ok(text.to_owned());
         };
-        in_json(&mut scene, &changes, overrides.elements)?;
+        in_json(&mut scene, changes, elements)?;
         return Ok(format!("{scene:#}"));
     }
     let Ok(mut scene) = text.parse::<DocumentMut>() else {
         return Ok(text.to_owned());
     };
-    in_toml(&mut scene, &changes, overrides.elements)?;
+    in_toml(&mut scene, changes, elements)?;
     Ok(scene.to_string())
+}
+
+/// The scene's text with one value changed.
+///
+/// # Errors
+/// As [`apply`].
+pub fn set(text: &str, is_json: bool, key: &[String], value: Value) -> Result<String, String> {
+    apply_changes(text, is_json, &[(key.to_vec(), value)], None)
 }
 
 /// A dotted key in its parts, and the value for it.
@@ -67,7 +84,7 @@ fn changes(overrides: &Overrides) -> Result<Vec<Change>, String> {
 
 /// A change cut at the first `=` that ends a key: one in quotes may hold others, and dots. A place of an array is `supports.1` or, as messages
 /// have it, `supports[1]`.
-fn key_and_value(change: &str) -> Option<(Vec<String>, &str)> {
+pub fn key_and_value(change: &str) -> Option<(Vec<String>, &str)> {
     change.match_indices('=').find_map(|(at, _)| {
         let key = change[..at].trim();
         let in_dots = || Key::parse(&key.replace('[', ".").replace(']', ""));
@@ -145,7 +162,8 @@ fn in_json(scene: &mut serde_json::Value, changes: &[Change], elements: Option<u
     Ok(())
 }
 
-fn json_value(value: &Value) -> serde_json::Value {
+/// A value as JSON has it.
+pub fn json_value(value: &Value) -> serde_json::Value {
     match value {
         Value::String(text) => text.value().as_str().into(),
         Value::Integer(number) => (*number.value()).into(),

@@ -7,7 +7,7 @@ use strands::statics::{RefineError, Solution, Workspace, solve};
 use strands_scene::{MeshError, Model, write};
 
 use crate::args::Solve;
-use crate::{Failure, colour_out, overrides, say, source, summary};
+use crate::{Failure, colour_out, many, overrides, say, source, summary};
 
 /// A solved scene.
 #[derive(Debug)]
@@ -54,6 +54,12 @@ pub fn run(options: &Solve) -> Result<(), Failure> {
     let mut source = source::read(&options.scene)?;
     source.text =
         overrides::apply(&source.text, source.is_json(), &options.overrides).map_err(Failure::bad)?;
+    if options.all {
+        return many::all(options, &source, &outputs);
+    }
+    if let Some(path) = &options.path {
+        return many::path(options, &source, path, &outputs);
+    }
     let outcome = solve_all(source.parse()?.model)?;
     for (path, format) in outputs {
         match format.bytes(&outcome) {
@@ -136,7 +142,7 @@ fn solutions(outcome: &Outcome) -> Vec<(&str, &Solution)> {
 
 /// What a result can be written as.
 #[derive(Clone, Copy, Debug)]
-enum Format {
+pub enum Format {
     Json,
     Csv,
     Vtp,
@@ -166,18 +172,22 @@ impl Format {
         })
     }
 
+    /// Several solutions of rods of a model, in all formats but JSON.
+    pub fn shapes(self, model: &Model, solutions: &[(&str, &Solution)]) -> Option<Vec<u8>> {
+        Some(match self {
+            Self::Json => return None,
+            Self::Csv => write::csv(model, solutions).into_bytes(),
+            Self::Vtp => write::vtp(model, solutions).into_bytes(),
+            Self::Glb => write::glb(model, solutions),
+            Self::Svg => write::svg(model, solutions).into_bytes(),
+        })
+    }
+
     /// The file's bytes. `None` where there is nothing to show, since the solve failed; only JSON can say so.
     fn bytes(self, outcome: &Outcome) -> Option<Vec<u8>> {
         if outcome.failed.is_some() && !matches!(self, Self::Json) {
             return None;
         }
-        let (model, solutions) = (&outcome.model, solutions(outcome));
-        Some(match self {
-            Self::Json => json(outcome).into_bytes(),
-            Self::Csv => write::csv(model, &solutions).into_bytes(),
-            Self::Vtp => write::vtp(model, &solutions).into_bytes(),
-            Self::Glb => write::glb(model, &solutions),
-            Self::Svg => write::svg(model, &solutions).into_bytes(),
-        })
+        self.shapes(&outcome.model, &solutions(outcome)).or_else(|| Some(json(outcome).into_bytes()))
     }
 }

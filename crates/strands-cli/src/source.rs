@@ -19,6 +19,11 @@ pub struct Source {
 }
 
 impl Source {
+    /// The same source with another text.
+    pub fn with_text(&self, text: String) -> Self {
+        Self { text, ..self.clone() }
+    }
+
     /// Reads the scene.
     ///
     /// # Errors

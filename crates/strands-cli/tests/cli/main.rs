@@ -1,6 +1,7 @@
 //! What the command prints, and how it ends.
 
 mod common;
+mod many;
 mod readme;
 mod view;
 

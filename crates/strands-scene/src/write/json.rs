@@ -5,7 +5,7 @@ use crate::model::Model;
 use serde::Serialize;
 use serde_json::{Map, Value, json as value};
 use std::fmt::Display;
-use strands::statics::{Method, Solution, SolveReport};
+use strands::statics::{Event, EventKind, Method, PathEnd, Solution, SolveReport};
 
 #[derive(Serialize)]
 struct RodAnswer<'a> {
@@ -104,4 +104,91 @@ fn rod<'a>(solved: &Solved<'a>) -> RodAnswer<'a> {
         stress: stress.iter().map(|stress| stress.to_array()).collect(),
         reactions: reactions.collect(),
     }
+}
+
+/// The answer of a search for all equilibria of a rod, one JSON object: under `equilibria`, by growing energy, for each `stable`, `morse_index`,
+/// `energy` (J), `method`, `residual` and `rods` with this one rod as [`json`](fn@json) has it.
+pub fn equilibria_json(
+    model: &Model,
+    rod: &str,
+    equilibria: &[Solution],
+    solve_seconds: Option<f64>,
+) -> String {
+    let status = if equilibria.is_empty() { "failed" } else { "converged" };
+    let mut answer = head(model, status, None);
+    answer.insert("rod".into(), value!(rod));
+    if let Some(seconds) = solve_seconds {
+        answer.insert("solve_seconds".into(), value!(seconds));
+    }
+    let all = equilibria.iter().map(|solution| value!(one_of_many(model, rod, solution)));
+    answer.insert("equilibria".into(), all.collect());
+    Value::Object(answer).to_string()
+}
+
+/// A point of a path, with the scene as it is there.
+#[derive(Clone, Debug)]
+pub struct PathAnswer<'a> {
+    /// The value of the key.
+    pub value: Value,
+    /// The scene with that value.
+    pub model: Model,
+    /// The equilibrium.
+    pub solution: &'a Solution,
+}
+
+/// The answer of a path, one JSON object: `key` and `end` (why it ends), under `points` for each the key's `value` and what
+/// [`equilibria_json`] has of an equilibrium, and under `events` folds and bifurcations, each with the key's `value` there, how many
+/// points are before it (`after_points`) and the Morse index before and after.
+pub fn path_json(
+    model: &Model,
+    rod: &str,
+    key: &str,
+    points: &[PathAnswer<'_>],
+    events: &[(Value, Event)],
+    end: &PathEnd,
+) -> String {
+    let status = if matches!(end, PathEnd::Reached | PathEnd::Returned) { "converged" } else { "failed" };
+    let mut answer = head(model, status, None);
+    answer.insert("rod".into(), value!(rod));
+    answer.insert("key".into(), value!(key));
+    let (end, reason) = match end {
+        PathEnd::Reached => ("reached", None),
+        PathEnd::Returned => ("returned", None),
+        PathEnd::MostPoints => ("most_points", None),
+        PathEnd::Stuck { why } => ("stuck", Some(why)),
+    };
+    answer.insert("end".into(), value!(end));
+    if let Some(why) = reason {
+        answer.insert("reason".into(), value!(why));
+    }
+    let points = points.iter().map(|point| {
+        let mut one = one_of_many(&point.model, rod, point.solution);
+        one.insert("value".into(), point.value.clone());
+        Value::Object(one)
+    });
+    answer.insert("points".into(), points.collect());
+    let events = events.iter().map(|(at, event)| {
+        value!({
+            "kind": match event.kind { EventKind::Fold => "fold", EventKind::Bifurcation => "bifurcation" },
+            "value": at,
+            "after_points": event.after_points,
+            "morse_index": event.morse_index,
+        })
+    });
+    answer.insert("events".into(), events.collect());
+    Value::Object(answer).to_string()
+}
+
+fn one_of_many(model: &Model, rod: &str, solution: &Solution) -> Map<String, Value> {
+    let report = &solution.report;
+    let pairs = [
+        ("stable", value!(report.morse_index.map(|index| index == 0))),
+        ("morse_index", value!(report.morse_index)),
+        ("energy", value!(solution.energy.elastic + solution.energy.load)),
+        ("method", value!(report.method.name())),
+        ("iterations", value!(report.iterations)),
+        ("residual", value!(report.residual)),
+        ("rods", rods(&Solved::all(model, &[(rod, solution)]))),
+    ];
+    pairs.into_iter().map(|(key, value)| (key.to_owned(), value)).collect()
 }

@@ -16,7 +16,7 @@ mod vtp;
 
 pub use csv::csv;
 pub use glb::glb;
-pub use json::{failure_json, json};
+pub use json::{PathAnswer, equilibria_json, failure_json, json, path_json};
 pub use svg::svg;
 pub use vtp::vtp;
 

@@ -81,27 +81,33 @@ fn laid_out(
     workspace: &mut Workspace,
     report: &mut SolveReport,
 ) -> Outcome {
-    let rod = &problem.rod;
     let mut outcome = Outcome::Stalled;
     for plan in &PLANS {
-        let record = &mut workspace.record;
-        record.fit(rod.elements());
-        record.wrenches.fill(Wrench::ZERO);
-        record.poses[0] = rod.description().base;
-        let bend = Strain::new(plan.bend * (1.0 / rod.length()), Vec3::ZERO);
-        for e in 0..rod.elements() {
-            record.strains[e] = rod.rest_strains(e);
-            let bent = record.strains[e].map(|strain| strain + bend);
-            let relative = Pose::exp(element::exponent(rod.order(), rod.element_length(e), &bent));
-            record.poses[e + 1] = record.poses[e].compose(&relative);
-        }
-        put_between_supports(problem, &mut record.poses);
+        let bend = plan.bend * (1.0 / problem.rod.length());
+        lay_out(problem, |_| bend, &mut workspace.record);
         outcome = relax(problem, settings, plan, workspace, report);
         if outcome == Outcome::Converged {
             break;
         }
     }
     outcome
+}
+
+/// Lays the rod out between its supports, bent from its rest shape by a curvature and twist (1/m) that may change along it (`s` over the length).
+pub(crate) fn lay_out(problem: &Problem, bend: impl Fn(f64) -> Vec3, record: &mut Record) {
+    let rod = &problem.rod;
+    let nodes = rod.mesh().nodes();
+    record.fit(rod.elements());
+    record.wrenches.fill(Wrench::ZERO);
+    record.poses[0] = rod.description().base;
+    for e in 0..rod.elements() {
+        record.strains[e] = rod.rest_strains(e);
+        let bend = Strain::new(bend(0.5 * (nodes[e] + nodes[e + 1]) / rod.length()), Vec3::ZERO);
+        let bent = record.strains[e].map(|strain| strain + bend);
+        let relative = Pose::exp(element::exponent(rod.order(), rod.element_length(e), &bent));
+        record.poses[e + 1] = record.poses[e].compose(&relative);
+    }
+    put_between_supports(problem, &mut record.poses);
 }
 
 /// A milder problem, from which to get to a hard one by degrees.
@@ -342,6 +348,17 @@ fn put_between_supports(problem: &Problem, poses: &mut [Pose]) {
     }
 }
 
+/// Moves the rod from the state in the workspace to rest, as from near an equilibrium.
+pub(crate) fn fall(
+    problem: &Problem,
+    settings: &Settings,
+    workspace: &mut Workspace,
+    report: &mut SolveReport,
+) -> Search {
+    let outcome = relax(problem, settings, &PLANS[0], workspace, report);
+    found(problem, outcome, workspace)
+}
+
 /// Moves the rod from the state in the workspace to rest.
 fn relax(
     problem: &Problem,
@@ -415,7 +432,7 @@ fn relax(
 }
 
 /// The least that is lent to all elements together.
-fn least_lent(problem: &Problem) -> f64 {
+pub(crate) fn least_lent(problem: &Problem) -> f64 {
     LEAST_LENT * problem.rod.elements() as f64
 }
 
@@ -448,7 +465,7 @@ fn push_off(simd: SimdLevel, nodal: &mut Nodal, report: &mut SolveReport) -> Opt
 
 /// Carries the wrench at the end through all elements, so that force and moment balance to round-off at every node, and gives the elements the
 /// strains that belong to it, so that what is not free is as it must be to the last bit.
-fn finish(problem: &Problem, record: &mut Record) {
+pub(crate) fn finish(problem: &Problem, record: &mut Record) {
     let rod = &problem.rod;
     record.poses.iter_mut().for_each(|pose| pose.rotation = renormalised(pose.rotation));
     // What the end leaves free bears its loads to the last bit.
@@ -484,7 +501,7 @@ fn finish(problem: &Problem, record: &mut Record) {
 }
 
 /// The state in the workspace as one that shooting can go on from.
-fn found(problem: &Problem, outcome: Outcome, workspace: &Workspace) -> Search {
+pub(crate) fn found(problem: &Problem, outcome: Outcome, workspace: &Workspace) -> Search {
     let record = &workspace.record;
     let n = problem.rod.elements();
     let guess = Guess::new(record.poses[n], record.wrenches[n - 1]);

@@ -5,6 +5,7 @@
 //! with a prescribed end, it is a search for what is unknown at the end: [`Method::Shooting`].
 
 mod boundary;
+mod continuation;
 mod equilibrium;
 mod fit;
 mod march;
@@ -12,14 +13,17 @@ mod nodal;
 mod path;
 mod problem;
 mod refine;
+mod search;
 mod shooting;
 mod solution;
 mod stability;
 mod sweep;
 mod variation;
 
+pub use continuation::{Event, EventKind, Path, PathEnd, PathError, PathPoint, PathSettings, follow_path};
 pub use problem::{Problem, Support};
 pub use refine::{RefineError, Refined, refine};
+pub use search::{SearchSettings, equilibria};
 pub use shooting::Workspace;
 pub use solution::{
     Energy, FailureReason, Guess, Jacobian, Method, Reaction, Scheme, Settings, Solution, SolveFailure,

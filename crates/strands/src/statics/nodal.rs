@@ -33,8 +33,10 @@ const TURNING: f64 = 0.02;
 /// A pivot below this part of the largest entry is none.
 const SMALLEST_PIVOT: f64 = 1e-15;
 
-/// Six rows of a block: six columns and room for two more.
+/// Six rows of a block: six columns, and two for what acts.
 type Block = [Row; 6];
+/// The column of what acts, and that of another right-hand side.
+const COLUMNS: [usize; 2] = [6, 7];
 
 /// An element, linearised.
 #[derive(Clone, Copy, Debug)]
@@ -57,6 +59,7 @@ struct Hold {
 /// The linear system, and its solution.
 #[derive(Clone, Debug, Default)]
 pub(crate) struct Nodal {
+    axes: Axes,
     links: Vec<Link>,
     /// What acts on each node beside its elements, and how that changes with its frame, where it does.
     loads: Vec<Wrench>,
@@ -66,7 +69,11 @@ pub(crate) struct Nodal {
     places: Vec<Vec3>,
     /// How the variation of a node follows from that of the one before it; in its seventh column what it has by itself.
     follows: Vec<Block>,
-    steps: Vec<Vec6>,
+    pub steps: Vec<Vec6>,
+    /// Another right-hand side, where one is asked for, and its solution.
+    pub others: Vec<Wrench>,
+    pub other_steps: Vec<Vec6>,
+    other_pulls: Vec<Wrench>,
 }
 
 /// How far a state is from equilibrium.
@@ -96,7 +103,18 @@ impl Nodal {
         lent: f64,
         state: &mut Record,
     ) -> Option<Distance> {
-        let axes = Axes::new(problem, state);
+        self.axes = Axes::new(problem, state);
+        self.linearise_in_its_axes(problem, level, lent, state)
+    }
+
+    fn linearise_in_its_axes(
+        &mut self,
+        problem: &Problem,
+        level: SimdLevel,
+        lent: f64,
+        state: &mut Record,
+    ) -> Option<Distance> {
+        let axes = self.axes;
         self.places.clear();
         self.places.extend(state.poses.iter().map(|pose| axes.at(pose.position)));
         self.links.clear();
@@ -205,6 +223,65 @@ impl Nodal {
         wrench
     }
 
+    /// What acts on a node when the elements have taken up their slack: the right-hand side of the system.
+    pub fn acting(&self, node: usize) -> Wrench {
+        let mut wrench = self.imbalance(node);
+        if let Some(link) = self.links.get(node) {
+            wrench += link.pull;
+        }
+        if node > 0 {
+            wrench -= self.links[node - 1].pull;
+        }
+        wrench
+    }
+
+    /// Takes for the other right-hand side how what acts changes on the way to another problem (`step` long), whose supports `moved` meets
+    /// already. `None` as for [`Nodal::linearise`].
+    pub fn linearise_towards(
+        &mut self,
+        problem: &Problem,
+        level: SimdLevel,
+        (lent, step): (f64, f64),
+        moved: &mut Record,
+        scratch: &mut Self,
+    ) -> Option<()> {
+        scratch.axes = self.axes;
+        scratch.linearise_in_its_axes(problem, level, lent, moved)?;
+        let slope = |there: Wrench, here: Wrench| (there - here) * (1.0 / step);
+        let mut others = core::mem::take(&mut self.others);
+        others.clear();
+        others.extend((0..=self.links.len()).map(|i| slope(scratch.acting(i), self.acting(i))));
+        self.others = others;
+        self.other_pulls.clear();
+        self.other_pulls.extend(scratch.links.iter().zip(&self.links).map(|(a, b)| slope(a.pull, b.pull)));
+        Some(())
+    }
+
+    /// Adds so many of the other solution's steps to the step.
+    pub fn add_other(&mut self, times: f64) {
+        self.steps.iter_mut().zip(&self.other_steps).for_each(|(step, other)| *step += *other * times);
+        self.links.iter_mut().zip(&self.other_pulls).for_each(|(link, pull)| link.pull += *pull * times);
+    }
+
+    /// Makes the step so many of the other solution's.
+    pub fn step_is_other(&mut self, times: f64) {
+        self.steps.fill(Vec6::ZERO);
+        self.links.iter_mut().for_each(|link| link.pull = Wrench::ZERO);
+        self.add_other(times);
+    }
+
+    /// Takes for the other right-hand side a force and a moment on each node, for a change that moves no support.
+    pub fn act_with(&mut self, forces: impl Iterator<Item = Wrench>) {
+        self.others.clear();
+        self.others.extend(forces);
+        self.other_pulls.clear();
+    }
+
+    /// How a node turns (rad) and shifts (over the length) by a step in the fixed axes.
+    pub fn motion(&self, node: usize, step: &Vec6) -> Vec6 {
+        Vec6::new(step.angular, step.linear + step.angular.cross(self.places[node]))
+    }
+
     /// Solves for a step against a drag (over `EI/L³`, of all nodes together). Gives how many pivots are negative, or `None` where one
     /// vanishes.
     pub fn solve(&mut self, level: SimdLevel, drag: f64) -> Option<usize> {
@@ -233,7 +310,7 @@ impl Nodal {
 
     /// Takes a part of the step.
     pub fn take(&self, problem: &Problem, part: f64, state: &mut Record) {
-        let axes = Axes::new(problem, state);
+        let axes = self.axes;
         for (e, link) in self.links.iter().enumerate() {
             let apart = self.steps[e + 1] - self.steps[e];
             let change = Wrench::from(core::array::from_fn::<f64, 6, _>(|i| {
@@ -345,6 +422,11 @@ impl Kernel for Eliminate<'_> {
             for (row, force) in pivot.iter_mut().zip(acting.to_array()) {
                 row.0[6] += force;
             }
+            if let Some(other) = nodal.others.get(i) {
+                for (row, force) in pivot.iter_mut().zip(other.to_array()) {
+                    row.0[7] += force;
+                }
+            }
             let mut lower = [Row::zero(); 6];
             if let Some(after) = nodal.links.get(i) {
                 add(&mut pivot, &after.stiffness);
@@ -369,7 +451,7 @@ impl Kernel for Eliminate<'_> {
             }
             let mut system: [[Row; 2]; 6] = core::array::from_fn(|r| {
                 let mut right = lower[r];
-                right.0[6] = pivot[r].0[6];
+                COLUMNS.iter().for_each(|c| right.0[*c] = pivot[r].0[*c]);
                 [pivot[r], right]
             });
             negative += reduce(&mut system)?;
@@ -386,18 +468,29 @@ impl Kernel for Eliminate<'_> {
                 }
             }
         }
-        let mut before = Vec6::ZERO;
-        for (follow, step) in nodal.follows.iter().zip(&mut nodal.steps) {
-            let x = before.to_array();
-            *step = Vec6::from(core::array::from_fn::<f64, 6, _>(|r| {
-                let row = &follow[r].0;
-                row[6]
-                    + ((row[0] * x[0] + row[1] * x[1]) + (row[2] * x[2] + row[3] * x[3]))
-                    + (row[4] * x[4] + row[5] * x[5])
-            }));
-            before = *step;
+        put_together(&nodal.follows, COLUMNS[0], &mut nodal.steps);
+        nodal.other_steps.clear();
+        if !nodal.others.is_empty() {
+            nodal.other_steps.resize(n + 1, Vec6::ZERO);
+            put_together(&nodal.follows, COLUMNS[1], &mut nodal.other_steps);
         }
         Some(negative)
+    }
+}
+
+/// Each node's step from that of the one before it.
+#[inline(always)]
+fn put_together(follows: &[Block], column: usize, steps: &mut [Vec6]) {
+    let mut before = Vec6::ZERO;
+    for (follow, step) in follows.iter().zip(steps) {
+        let x = before.to_array();
+        *step = Vec6::from(core::array::from_fn::<f64, 6, _>(|r| {
+            let row = &follow[r].0;
+            row[column]
+                + ((row[0] * x[0] + row[1] * x[1]) + (row[2] * x[2] + row[3] * x[3]))
+                + (row[4] * x[4] + row[5] * x[5])
+        }));
+        before = *step;
     }
 }
 
@@ -486,16 +579,16 @@ fn matrix(block: &Block) -> Mat6 {
     Mat6::from_rows(&core::array::from_fn(|r| core::array::from_fn(|c| block[r].0[c])))
 }
 
-fn column(block: &Block) -> Vec6 {
-    Vec6::from(core::array::from_fn::<f64, 6, _>(|r| block[r].0[6]))
+fn columns(block: &Block) -> [Vec6; 2] {
+    COLUMNS.map(|c| Vec6::from(core::array::from_fn::<f64, 6, _>(|r| block[r].0[c])))
 }
 
-fn block(matrix: &Mat6, column: Vec6) -> Block {
-    let (rows, column) = (matrix.to_rows(), column.to_array());
+fn block(matrix: &Mat6, columns: [Vec6; 2]) -> Block {
+    let (rows, columns) = (matrix.to_rows(), columns.map(|column| column.to_array()));
     core::array::from_fn(|r| {
         let mut row = Row::zero();
         row.0[..6].copy_from_slice(&rows[r]);
-        row.0[6] = column[r];
+        COLUMNS.iter().zip(columns).for_each(|(c, column)| row.0[*c] = column[r]);
         row
     })
 }
@@ -506,21 +599,29 @@ fn restrict(hold: &Hold, pivot: &Block, lower: &Block) -> (Block, Block) {
     let t = hold.free.transpose();
     let fixed = Mat6::diagonal(Vec6::from(hold.fixed.map(f64::from)));
     let restricted = t.mul(&matrix(pivot)).mul(&hold.free).add(&hold.curved).add(&fixed);
-    (block(&restricted, t.mul_vec(column(pivot))), block(&t.mul(&matrix(lower)), Vec6::ZERO))
+    let acting = columns(pivot).map(|column| t.mul_vec(column));
+    (block(&restricted, acting), block(&t.mul(&matrix(lower)), [Vec6::ZERO; 2]))
 }
 
 /// From the free displacements of a held node to the variation of its frame.
 #[inline(never)]
 fn expand(hold: &Hold, follow: &Block) -> Block {
-    block(&hold.free.mul(&matrix(follow)), hold.free.mul_vec(column(follow)))
+    block(&hold.free.mul(&matrix(follow)), columns(follow).map(|column| hold.free.mul_vec(column)))
 }
 
 /// Fixed axes about the rod's start, in which lengths, forces and moments are numbers of order one.
+#[derive(Clone, Copy, Debug)]
 struct Axes {
     origin: Vec3,
     length: f64,
     force: f64,
     moment: f64,
+}
+
+impl Default for Axes {
+    fn default() -> Self {
+        Self { origin: Vec3::ZERO, length: 1.0, force: 1.0, moment: 1.0 }
+    }
 }
 
 impl Axes {

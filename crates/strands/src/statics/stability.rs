@@ -12,7 +12,7 @@ use crate::math::{Vec3, Vec6};
 
 /// What an inextensible, unshearable rod is given for this purpose alone, over `L³/EI` and in place of no compliance: its end then yields by
 /// this part of what it would yield by bending, and an eigenvalue changes its sign by that much too early.
-const RIGID_COMPLIANCE: f64 = 1e-7;
+pub(crate) const RIGID_COMPLIANCE: f64 = 1e-7;
 /// An eigenvalue below this, over `EI/L³` and the [`strength`], is none: the rod may be free to turn about an axis, and then round-off decides its sign.
 pub(crate) const NEUTRAL: f64 = 1e-4;
 

@@ -4,9 +4,11 @@ use crate::load::{DistributedLoad, Frame, NodalLoads, PointLoad};
 use crate::math::{Pose, Quat, SimdLevel, Wrench};
 use crate::rod::{Law, Mesh, Order, Profile, RestShape, Rod, RodDescription, Stiffness};
 
+mod continuation;
 mod fit;
 mod meshes;
 mod schemes;
+mod search;
 mod supports;
 
 fn description(kinematics: Kinematics, rest: RestShape) -> RodDescription {
