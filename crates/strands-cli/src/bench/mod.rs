@@ -13,7 +13,8 @@ use serde::Serialize;
 use strands::math::{Pose, SimdLevel, Wrench};
 use strands::rod::{Kinematics, Order, RodError};
 use strands::statics::{
-    Guess, Jacobian, Problem, Scheme, Settings, Solution, SolveFailure, SolveReport, Workspace, follow, solve,
+    Guess, Jacobian, Method, Problem, Scheme, Settings, Solution, SolveFailure, SolveReport, Workspace,
+    follow, solve,
 };
 use strands_cases::bank;
 
@@ -28,6 +29,10 @@ Figures (of a steel wire 0.5 m long, 2 mm thick, where no other is named; one th
                                    1e-10: search after the hand moved by 0.3 % of the length
                                    and 1°, from the last solution, µs
   warm.iterations                  mean Newton iterations of those
+  equilibrium.warm.median .p999    the same with all frames at once, µs; .factorisations, mean
+  equilibrium.iteration.100 .1000 .10000
+                                   one of its iterations on that many elements (linearise, factor,
+                                   solve), ns for each of a node's six numbers
   jacobian.variational_lanes .variational .finite_differences .finite_difference_lanes
                                    one Jacobian, over one sweep of the same rod, from times of
                                    whole solves; by finite differences it is six sweeps, which
@@ -77,6 +82,7 @@ pub fn measure() -> Result<Vec<Figure>, BenchError> {
     let mut figures = vec![figure("simd_width", SimdLevel::detect().width() as f64, "numbers")];
     figures.extend(sweeps()?);
     figures.extend(warm()?);
+    figures.extend(all_at_once()?);
     figures.extend(jacobians()?);
     figures.extend(cost()?);
     figures.extend(workloads()?);
@@ -188,28 +194,62 @@ fn sweeps() -> Result<Vec<Figure>, BenchError> {
 
 /// The interactive solve: the last solution is the guess for the next place of the hand.
 fn warm() -> Result<Vec<Figure>, BenchError> {
-    const STEPS: usize = 20_000;
-    let settings = Settings { tolerance: 1e-10, ..Settings::default() };
-    let mut workspace = Workspace::default();
-    let mut problem = problems::held(100, problems::home())?;
-    let mut guess = solved(&problem, &settings, None, &mut workspace)?.guess;
-    let mut report = SolveReport::default();
-    let (mut times, mut iterations) = (Vec::with_capacity(STEPS), 0);
-    for place in problems::wander(STEPS) {
-        problem.end.pose = place;
-        let start = Instant::now();
-        let converged = black_box(follow(&problem, &settings, &mut guess, &mut workspace, &mut report));
-        times.push(start.elapsed().as_secs_f64());
-        if !converged {
-            guess = solved(&problem, &settings, Some(&guess), &mut workspace)?.guess;
-        }
-        iterations += report.iterations;
-    }
+    let mut warm = Warm::of(Method::Auto, 100, 20_000)?;
     Ok(vec![
-        figure("warm.median", clock::quantile(&mut times, 0.5) * 1e6, "µs"),
-        figure("warm.p999", clock::quantile(&mut times, 0.999) * 1e6, "µs"),
-        figure("warm.iterations", iterations as f64 / STEPS as f64, "iterations"),
+        figure("warm.median", clock::quantile(&mut warm.times, 0.5) * 1e6, "µs"),
+        figure("warm.p999", clock::quantile(&mut warm.times, 0.999) * 1e6, "µs"),
+        figure("warm.iterations", warm.iterations, "iterations"),
     ])
+}
+
+/// The same with all frames at once, and what an iteration costs for one of the six numbers of a node, as the rod gets longer.
+fn all_at_once() -> Result<Vec<Figure>, BenchError> {
+    let mut warm = Warm::of(Method::Equilibrium, 100, 5_000)?;
+    let mut figures = vec![
+        figure("equilibrium.warm.median", clock::quantile(&mut warm.times, 0.5) * 1e6, "µs"),
+        figure("equilibrium.warm.p999", clock::quantile(&mut warm.times, 0.999) * 1e6, "µs"),
+        figure("equilibrium.warm.factorisations", warm.factorisations, "factorisations"),
+    ];
+    for (elements, steps) in [(100, 2_000), (1_000, 200), (10_000, 20)] {
+        let warm = Warm::of(Method::Equilibrium, elements, steps)?;
+        let scalars = warm.factorisations * 6.0 * (elements + 1) as f64;
+        let mean = warm.times.iter().sum::<f64>() / warm.times.len() as f64;
+        figures.push(figure(format!("equilibrium.iteration.{elements}"), mean * 1e9 / scalars, "ns"));
+    }
+    Ok(figures)
+}
+
+/// Searches while the hand wanders.
+struct Warm {
+    /// Of each search, s.
+    times: Vec<f64>,
+    /// Means of a search.
+    iterations: f64,
+    factorisations: f64,
+}
+
+impl Warm {
+    fn of(method: Method, elements: usize, steps: usize) -> Result<Self, BenchError> {
+        let settings = Settings { method, tolerance: 1e-10, ..Settings::default() };
+        let mut workspace = Workspace::default();
+        let mut problem = problems::held(elements, problems::home())?;
+        let mut guess = solved(&problem, &settings, None, &mut workspace)?.guess;
+        let mut report = SolveReport::default();
+        let (mut times, mut iterations, mut factorisations) = (Vec::with_capacity(steps), 0, 0);
+        for place in problems::wander(steps) {
+            problem.end.pose = place;
+            let start = Instant::now();
+            let converged = black_box(follow(&problem, &settings, &mut guess, &mut workspace, &mut report));
+            times.push(start.elapsed().as_secs_f64());
+            if !converged {
+                guess = solved(&problem, &settings, Some(&guess), &mut workspace)?.guess;
+            }
+            iterations += report.iterations;
+            factorisations += report.factorisations;
+        }
+        let mean = |sum: usize| sum as f64 / steps as f64;
+        Ok(Self { times, iterations: mean(iterations), factorisations: mean(factorisations) })
+    }
 }
 
 /// One Jacobian by each of the four ways, over one sweep.

@@ -13,7 +13,7 @@ use super::shooting::{Outcome, Search, Workspace};
 use super::solution::{Guess, Method, Scheme, Settings, SolveReport};
 use super::stability::{NEUTRAL, strength};
 use crate::element;
-use crate::math::{Mat3, Pose, SimdLevel, Strain, Vec3, Wrench};
+use crate::math::{Mat3, Pose, SimdLevel, Strain, Vec3, Vec6, Wrench};
 use crate::rod::Order;
 
 /// How a rod is first laid out, and how it may move from there.
@@ -50,6 +50,10 @@ const LEAST_LENT: f64 = 1e-12;
 /// What a step against the energy's fall takes: this much more drag, and at least this much.
 const MORE_DRAG: f64 = 4.0;
 const SOME_DRAG: f64 = 1.0;
+/// A support that moves less, in rad and lengths, has not moved.
+const ROUND_OFF: f64 = 1e-12;
+/// A motion up to this is answered linearly.
+const SMALL_MOTION: f64 = 0.1;
 /// More drag than this stops everything.
 const MOST_DRAG: f64 = 1e15;
 /// The drag that just holds an unstable rod is found to this power of a half.
@@ -251,8 +255,32 @@ fn from_state(
     workspace: &mut Workspace,
     report: &mut SolveReport,
 ) -> Outcome {
-    put_between_supports(problem, &mut workspace.record.poses);
+    if !led_by_end(problem, workspace) {
+        put_between_supports(problem, &mut workspace.record.poses);
+    }
     relax(problem, settings, &WARM, workspace, report)
+}
+
+/// Where nothing but the held end has moved, and that little, moves the rod on as it answers to that. Gives whether it did.
+fn led_by_end(problem: &Problem, workspace: &mut Workspace) -> bool {
+    let Workspace { record, nodal, .. } = workspace;
+    let last = problem.rod.elements();
+    if !nodal.is_of(record) || !problem.end.fixed.contains(&true) {
+        return false;
+    }
+    let motion = |node: usize, support: &Support| {
+        record.poses[node].between(&meet(support, &record.poses[node])).log()
+    };
+    let size =
+        |motion: Vec6| Vec6::new(motion.angular, motion.linear * (1.0 / problem.rod.length())).max_abs();
+    let mut others = problem.supports().take_while(|(node, _)| *node < last);
+    let by = motion(last, &problem.end);
+    if !others.all(|(node, support)| size(motion(node, support)) < ROUND_OFF) || size(by) > SMALL_MOTION {
+        return false;
+    }
+    nodal.step_with_end(&record.poses[last], by);
+    nodal.take(problem, 1.0, record);
+    true
 }
 
 /// Searches by Newton's method alone for the equilibrium nearest to the state in the workspace, stable or not.

@@ -67,7 +67,7 @@ pub(crate) struct Nodal {
     holds: Vec<Hold>,
     /// Where the nodes are.
     places: Vec<Vec3>,
-    /// How the variation of a node follows from that of the one before it; in its seventh column what it has by itself.
+    /// How the variation of a node follows from that of the one after it; in its seventh column what it has by itself.
     follows: Vec<Block>,
     pub steps: Vec<Vec6>,
     /// Another right-hand side, where one is asked for, and its solution.
@@ -308,6 +308,32 @@ impl Nodal {
         self.steps.iter().zip(&self.places).map(size).fold(0.0, larger)
     }
 
+    /// Makes the step the answer of the rod, as it was when the system was last solved, to a motion of its held end (in its own axes, as a
+    /// [`Pose::log`]). Costs hardly more than to look at the nodes.
+    pub fn step_with_end(&mut self, end: &Pose, motion: Vec6) {
+        let last = self.links.len();
+        let turn = end.rotation * motion.angular;
+        let shift = end.rotation * motion.linear * (1.0 / self.axes.length);
+        self.steps[last] = Vec6::new(turn, shift - turn.cross(self.places[last]));
+        for i in (0..last).rev() {
+            let x = self.steps[i + 1].to_array();
+            let mut next = [0.0; 6];
+            for (next, row) in next.iter_mut().zip(&self.follows[i]) {
+                *next = (0..6).map(|k| row.0[k] * x[k]).sum();
+            }
+            self.steps[i] = Vec6::from(next);
+        }
+        self.links.iter_mut().for_each(|link| link.pull = Wrench::ZERO);
+    }
+
+    /// Whether the system was last solved for about this state of a rod.
+    pub fn is_of(&self, state: &Record) -> bool {
+        let near = |(place, pose): (&Vec3, &Pose)| (*place - self.axes.at(pose.position)).norm() < 1e-2;
+        self.links.len() + 1 == state.poses.len()
+            && self.follows.len() == state.poses.len()
+            && self.places.iter().zip(&state.poses).step_by(16).all(near)
+    }
+
     /// Takes a part of the step.
     pub fn take(&self, problem: &Problem, part: f64, state: &mut Record) {
         let axes = self.axes;
@@ -395,7 +421,7 @@ impl Kernel for Linearise<'_> {
     }
 }
 
-/// Eliminates the nodes from the last to the first, and puts the step back together.
+/// Eliminates the nodes from the first to the last, and puts the step back together.
 struct Eliminate<'a> {
     nodal: &'a mut Nodal,
     drag: f64,
@@ -412,11 +438,11 @@ impl Kernel for Eliminate<'_> {
         nodal.steps.clear();
         nodal.steps.resize(n + 1, Vec6::ZERO);
         let mut negative = 0;
-        // What the nodes beyond add to the pivot, and in column 6 to what acts.
-        let mut beyond = [Row::zero(); 6];
-        let (mut holds, mut slopes) = (nodal.holds.len(), nodal.load_slopes.len());
-        for i in (0..=n).rev() {
-            let mut pivot = beyond;
+        // What the nodes before add to the pivot, and in column 6 to what acts.
+        let mut earlier = [Row::zero(); 6];
+        let (mut holds, mut slopes) = (0, 0);
+        for i in 0..=n {
+            let mut pivot = earlier;
             add_drag(&mut pivot, nodal.places[i], drag);
             let acting = nodal.imbalance(i);
             for (row, force) in pivot.iter_mut().zip(acting.to_array()) {
@@ -427,43 +453,41 @@ impl Kernel for Eliminate<'_> {
                     row.0[7] += force;
                 }
             }
-            let mut lower = [Row::zero(); 6];
+            let mut upper = [Row::zero(); 6];
             if let Some(after) = nodal.links.get(i) {
+                upper = on_far(after);
                 add(&mut pivot, &after.stiffness);
                 add_column(&mut pivot, after.pull, 1.0);
             }
             if i > 0 {
                 let before = &nodal.links[i - 1];
-                lower = before.stiffness;
-                add(&mut pivot, &upper(before));
+                add(&mut pivot, &on_far(before));
                 add_column(&mut pivot, before.pull, -1.0);
             }
-            while slopes > 0 && nodal.load_slopes[slopes - 1].0 == i {
-                slopes -= 1;
+            while nodal.load_slopes.get(slopes).is_some_and(|(node, _)| *node == i) {
                 for (row, slope) in pivot.iter_mut().zip(nodal.load_slopes[slopes].1.to_rows()) {
                     (0..6).for_each(|k| row.0[k] -= slope[k]);
                 }
+                slopes += 1;
             }
-            let held = holds > 0 && nodal.holds[holds - 1].node == i;
-            if held {
-                holds -= 1;
-                (pivot, lower) = restrict(&nodal.holds[holds], &pivot, &lower);
+            let hold = nodal.holds.get(holds).filter(|hold| hold.node == i);
+            if let Some(hold) = hold {
+                holds += 1;
+                (pivot, upper) = restrict(hold, &pivot, &upper);
             }
-            let mut system: [[Row; 2]; 6] = core::array::from_fn(|r| {
-                let mut right = lower[r];
-                COLUMNS.iter().for_each(|c| right.0[*c] = pivot[r].0[*c]);
-                [pivot[r], right]
-            });
-            negative += reduce(&mut system)?;
-            let mut follow: Block = core::array::from_fn(|r| system[r][1]);
-            if held {
-                follow = expand(&nodal.holds[holds], &follow);
+            for r in 0..6 {
+                COLUMNS.iter().for_each(|c| upper[r].0[*c] = pivot[r].0[*c]);
             }
-            nodal.follows[i] = follow;
-            if i > 0 {
-                // −U D⁻¹ L to the pivot, and U D⁻¹ b to what acts.
-                beyond = product(&upper(&nodal.links[i - 1]), &follow);
-                for row in &mut beyond {
+            let follow = &mut nodal.follows[i];
+            *follow = upper;
+            negative += reduce(&mut pivot, follow)?;
+            if let Some(hold) = hold {
+                *follow = expand(hold, follow);
+            }
+            if let Some(after) = nodal.links.get(i) {
+                // −L D⁻¹ U to the next pivot, and L D⁻¹ b to what acts.
+                earlier = product(&after.stiffness, follow);
+                for row in &mut earlier {
                     (0..6).for_each(|k| row.0[k] = -row.0[k]);
                 }
             }
@@ -478,19 +502,21 @@ impl Kernel for Eliminate<'_> {
     }
 }
 
-/// Each node's step from that of the one before it.
+/// Each node's step from that of the one after it.
 #[inline(always)]
 fn put_together(follows: &[Block], column: usize, steps: &mut [Vec6]) {
-    let mut before = Vec6::ZERO;
-    for (follow, step) in follows.iter().zip(steps) {
-        let x = before.to_array();
-        *step = Vec6::from(core::array::from_fn::<f64, 6, _>(|r| {
-            let row = &follow[r].0;
-            row[column]
+    let mut after = [0.0; 6];
+    for (follow, step) in follows.iter().zip(steps).rev() {
+        let x = after;
+        let mut next = [0.0; 6];
+        for (next, row) in next.iter_mut().zip(follow) {
+            let row = &row.0;
+            *next = row[column]
                 + ((row[0] * x[0] + row[1] * x[1]) + (row[2] * x[2] + row[3] * x[3]))
-                + (row[4] * x[4] + row[5] * x[5])
-        }));
-        before = *step;
+                + (row[4] * x[4] + row[5] * x[5]);
+        }
+        *step = Vec6::from(next);
+        after = next;
     }
 }
 
@@ -508,9 +534,9 @@ fn add_column(to: &mut Block, column: Wrench, sign: f64) {
     }
 }
 
-/// `F + A`.
+/// `F + A`: how what the element exerts on its far node changes with that node.
 #[inline(always)]
-fn upper(link: &Link) -> Block {
+fn on_far(link: &Link) -> Block {
     let mut block = link.stiffness;
     let (m, n) = (link.carried.angular, link.carried.linear);
     let mut minus_hat = |r: usize, c: usize, v: Vec3| {
@@ -545,22 +571,36 @@ fn add_drag(pivot: &mut Block, p: Vec3, drag: f64) {
 /// Solves the six equations for seven right-hand sides, in place, without interchange: the signs of the pivots are wanted, and where all are
 /// positive it is not needed. `None` where a pivot vanishes.
 #[inline(always)]
-fn reduce(system: &mut [[Row; 2]; 6]) -> Option<usize> {
-    let size = system.iter().flat_map(|row| &row[0].0[..6]).fold(0.0, |max: f64, x| max.max(x.abs()));
+fn reduce(left: &mut Block, right: &mut Block) -> Option<usize> {
+    let mut size = 0.0_f64;
+    for row in left.iter() {
+        for x in &row.0[..6] {
+            size = size.max(x.abs());
+        }
+    }
     let mut negative = 0;
     for k in 0..6 {
-        let pivot = system[k][0].0[k];
+        let pivot = left[k].0[k];
         if !(pivot.abs() > SMALLEST_PIVOT * size && pivot.is_finite()) {
             return None;
         }
         negative += usize::from(pivot < 0.0);
-        let scale = Row::splat(1.0 / pivot);
-        let [left, right] = [system[k][0] * scale, system[k][1] * scale];
-        system[k] = [left, right];
-        for r in (0..6).filter(|r| *r != k) {
-            let factor = Row::splat(system[r][0].0[k]);
-            system[r][0] -= left * factor;
-            system[r][1] -= right * factor;
+        let scale = 1.0 / pivot;
+        let (mut l, mut r) = (left[k].0, right[k].0);
+        for c in 0..8 {
+            l[c] *= scale;
+            r[c] *= scale;
+        }
+        (left[k].0, right[k].0) = (l, r);
+        for i in 0..6 {
+            if i == k {
+                continue;
+            }
+            let factor = left[i].0[k];
+            for c in 0..8 {
+                left[i].0[c] -= l[c] * factor;
+                right[i].0[c] -= r[c] * factor;
+            }
         }
     }
     Some(negative)
@@ -569,10 +609,14 @@ fn reduce(system: &mut [[Row; 2]; 6]) -> Option<usize> {
 /// The product of six columns of a block with a block.
 #[inline(always)]
 fn product(a: &Block, b: &Block) -> Block {
-    core::array::from_fn(|r| {
-        let term = |k: usize| b[k] * Row::splat(a[r].0[k]);
-        (term(0) + term(1)) + (term(2) + term(3)) + (term(4) + term(5))
-    })
+    let mut out = [Row::zero(); 6];
+    for (out, a) in out.iter_mut().zip(a) {
+        for c in 0..8 {
+            let term = |k: usize| b[k].0[c] * a.0[k];
+            out.0[c] = (term(0) + term(1)) + (term(2) + term(3)) + (term(4) + term(5));
+        }
+    }
+    out
 }
 
 fn matrix(block: &Block) -> Mat6 {
@@ -595,12 +639,12 @@ fn block(matrix: &Mat6, columns: [Vec6; 2]) -> Block {
 
 /// A held node's equations in its free displacements; those that are fixed are zero.
 #[inline(never)]
-fn restrict(hold: &Hold, pivot: &Block, lower: &Block) -> (Block, Block) {
+fn restrict(hold: &Hold, pivot: &Block, upper: &Block) -> (Block, Block) {
     let t = hold.free.transpose();
     let fixed = Mat6::diagonal(Vec6::from(hold.fixed.map(f64::from)));
     let restricted = t.mul(&matrix(pivot)).mul(&hold.free).add(&hold.curved).add(&fixed);
     let acting = columns(pivot).map(|column| t.mul_vec(column));
-    (block(&restricted, acting), block(&t.mul(&matrix(lower)), [Vec6::ZERO; 2]))
+    (block(&restricted, acting), block(&t.mul(&matrix(upper)), [Vec6::ZERO; 2]))
 }
 
 /// From the free displacements of a held node to the variation of its frame.
