@@ -25,6 +25,8 @@ pub enum Command {
     New(New),
     /// Print the JSON Schema of scene files
     Schema,
+    /// Solve problems with known answers, and compare
+    Validate(Validate),
     /// Measure what the solvers cost on this machine
     #[command(after_help = crate::bench::NAMES)]
     Bench {
@@ -118,4 +120,24 @@ pub struct New {
     /// The bundled scene to start from
     #[arg(long, default_value = "suture")]
     pub template: String,
+}
+
+/// `strands validate`.
+#[derive(Debug, Args)]
+#[command(
+    after_help = "Exit status: 0 all within their tolerances, 1 bad arguments, 2 a comparison is out of its tolerance or a case is not solved."
+)]
+pub struct Validate {
+    /// Cases, by their names or parts of them, such as cantilever or bend-45; without any, all
+    pub names: Vec<String>,
+    /// Print every comparison, in place of the worst of each case
+    #[arg(long)]
+    pub rows: bool,
+    /// Print one JSON object: {"cases", "comparisons", "failed", "seconds", "lines": [{"case", "row", "quantity", "expected", "got",
+    /// "error", "tolerance", "ok", …}]}
+    #[arg(long)]
+    pub json: bool,
+    /// Write a report with sources and plots of the error against the number of elements
+    #[arg(short, long, value_name = "FILE.html")]
+    pub output: Option<PathBuf>,
 }

@@ -10,6 +10,7 @@ mod solve;
 mod source;
 mod summary;
 mod units;
+mod validate;
 mod view;
 
 use std::io::{IsTerminal, Write, stdout};
@@ -24,7 +25,7 @@ use strands::math::SimdLevel;
 pub enum Failure {
     /// A bad scene, a bad argument, a file that cannot be read or written: what to tell the person.
     Bad(String),
-    /// A solve found no equilibrium, or none within the tolerance; its answer has been printed.
+    /// A solve found no equilibrium, or none within the tolerance, or a comparison failed; the answer has been printed.
     Unsolved,
 }
 
@@ -71,6 +72,7 @@ fn run(command: Command) -> Result<(), Failure> {
         Command::Solve(options) => solve::run(&options),
         Command::New(options) => new::run(&options),
         Command::View(options) => view::run(&options),
+        Command::Validate(options) => validate::run(&options),
         Command::Bench { kernel: Some(kernel), times, .. } => {
             bench::run(&kernel, times.unwrap_or(1)).map_err(Failure::bad)
         }
