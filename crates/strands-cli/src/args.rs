@@ -19,6 +19,8 @@ pub struct Arguments {
 pub enum Command {
     /// Find the equilibrium of a scene
     Solve(Solve),
+    /// Say how hard a scene is, and what looks wrong with it
+    Check(Check),
     /// Show a scene in the browser, to hold in the hand
     View(View),
     /// Write a new scene file, with comments
@@ -72,6 +74,26 @@ pub struct Solve {
     /// Write the result, in the format of the ending: .json .csv .vtp .glb .svg; may be repeated
     #[arg(short, long, value_name = "FILE")]
     pub output: Vec<PathBuf>,
+    /// Print one JSON object and nothing else
+    #[arg(long)]
+    pub json: bool,
+    #[command(flatten)]
+    pub overrides: Overrides,
+}
+
+/// `strands check`.
+#[derive(Debug, Args)]
+#[command(after_help = "\
+Of each rod: its slenderness; its loads over its stiffness, w L³/EI for weight and distributed forces, P L²/EI
+for forces at points, M L/EI for moments (far below 1 it hardly bends; from 100 on, its stiffness hardly
+matters); its length over the length ℓ = √(EI/T) over which it bends under its tension T; the solver that
+\"auto\" takes first; and the error of its mesh, estimated from two solves. Then warnings, where something is
+probably a slip or an answer not to be relied on, and notes.
+
+Exit status: 0 with warnings or without, 1 bad scene or arguments.")]
+pub struct Check {
+    /// A scene file (.toml or .json), `-` for standard input, or the bare name of a bundled scene
+    pub scene: String,
     /// Print one JSON object and nothing else
     #[arg(long)]
     pub json: bool,

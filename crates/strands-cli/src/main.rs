@@ -2,6 +2,7 @@
 
 mod args;
 mod bench;
+mod check;
 mod drawing;
 mod new;
 mod overrides;
@@ -70,6 +71,7 @@ fn main() -> ExitCode {
 fn run(command: Command) -> Result<(), Failure> {
     match command {
         Command::Solve(options) => solve::run(&options),
+        Command::Check(options) => check::run(&options),
         Command::New(options) => new::run(&options),
         Command::View(options) => view::run(&options),
         Command::Validate(options) => validate::run(&options),

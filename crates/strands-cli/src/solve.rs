@@ -7,7 +7,7 @@ use strands::statics::{RefineError, Solution, Workspace, solve};
 use strands_scene::{MeshError, Model, write};
 
 use crate::args::Solve;
-use crate::{Failure, colour_out, overrides, say, source, summary};
+use crate::{Failure, check, colour_out, overrides, say, source, summary};
 
 /// A solved scene.
 #[derive(Debug)]
@@ -54,7 +54,9 @@ pub fn run(options: &Solve) -> Result<(), Failure> {
     let mut source = source::read(&options.scene)?;
     source.text =
         overrides::apply(&source.text, source.is_json(), &options.overrides).map_err(Failure::bad)?;
-    let outcome = solve_all(source.parse()?.model)?;
+    let scene = source.parse()?;
+    check::warn(&scene.remarks());
+    let outcome = solve_all(scene.model)?;
     for (path, format) in outputs {
         match format.bytes(&outcome) {
             Some(bytes) => {

@@ -1,5 +1,6 @@
 //! What the command prints, and how it ends.
 
+mod check;
 mod common;
 mod readme;
 mod validate;
@@ -20,7 +21,7 @@ fn assert_golden(name: &str, text: &str) {
 
 #[test]
 fn help_says_what_there_is() {
-    for command in ["", "solve", "view", "new", "schema", "validate", "bench", "completions"] {
+    for command in ["", "solve", "check", "view", "new", "schema", "validate", "bench", "completions"] {
         let arguments: Vec<&str> = command.split_whitespace().chain(["--help"]).collect();
         let run = strands(&arguments);
         assert_eq!((run.code, run.err.as_str()), (0, ""));
