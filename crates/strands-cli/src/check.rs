@@ -70,6 +70,9 @@ fn warnings(check: &Check) -> usize {
     check.remarks.iter().filter(|remark| remark.level == Level::Warning).count()
 }
 
+/// What a number of 64 bits holds.
+const DIGITS: f64 = 16.0;
+
 fn rows(rod: &RodCheck) -> Vec<(&'static str, String)> {
     let numbers = &rod.numbers;
     let mut size = engineering(numbers.length, "m") + " long";
@@ -105,8 +108,10 @@ fn rows(rod: &RodCheck) -> Vec<(&'static str, String)> {
         );
         // exp(L/ℓ) as a power of ten, which is a number of digits.
         let lost = numbers.bending_lengths() / std::f64::consts::LN_10;
-        if lost >= 1.0 {
-            tension += &format!("; shooting loses {lost:.0} of 16 digits");
+        if lost >= DIGITS {
+            tension += "; shooting loses all its digits";
+        } else if lost >= 1.0 {
+            tension += &format!("; shooting loses {lost:.0} of {DIGITS} digits");
         }
         rows.push(("tension", tension));
     }
@@ -128,7 +133,7 @@ fn rows(rod: &RodCheck) -> Vec<(&'static str, String)> {
         Trial::Solved { .. } => {
             rows.push(("error", "not estimated: a mesh twice as fine was not solved".into()))
         }
-        Trial::Failed { .. } => rows.push(("error", "not estimated: a trial found no equilibrium".into())),
+        Trial::Failed { .. } => rows.push(("error", "not estimated: a trial failed".into())),
     }
     rows
 }

@@ -58,7 +58,7 @@ impl Line {
             Some(year) if !who.contains(year) => format!("{who} {year}"),
             _ => who.to_owned(),
         };
-        shortened(&who, 26)
+        shortened(&who, 23)
     }
 }
 
@@ -98,7 +98,7 @@ mod tests {
                 "Bisshopp & Drucker 1945",
             ),
             ("Euler; Simo & Vu-Quoc, CMAME 58:79–116, 1986, pure bending", "Euler"),
-            ("closed form of the rectangular elastica; Argyris", "closed form of the rectan…"),
+            ("closed form of the rectangular elastica; Argyris", "closed form of the rec…"),
             ("", ""),
         ] {
             assert_eq!(with(source, 0.0, 0.0).short_source(), short);

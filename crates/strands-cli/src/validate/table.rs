@@ -7,8 +7,9 @@ use anstyle::{AnsiColor, Style};
 use super::Findings;
 use super::line::{Line, shortened};
 
-/// The longest that a column of words gets.
-const WIDEST: usize = 40;
+/// The longest that a value gets, and words.
+const VALUE: usize = 36;
+const WORDS: usize = 27;
 
 /// The table: the worst comparison of each case, or every comparison; then how many there are.
 pub fn table(findings: &Findings, every: bool, colour: bool) -> String {
@@ -46,10 +47,10 @@ fn cells(line: &Line) -> [String; 9] {
     [
         line.case.clone(),
         line.short_source(),
-        shortened(&line.quantity, WIDEST),
-        shortened(&line.label, WIDEST),
-        shortened(&line.expected, WIDEST),
-        shortened(&line.got, WIDEST),
+        shortened(&line.quantity, WORDS),
+        shortened(&line.label, WORDS),
+        shortened(&line.expected, VALUE),
+        shortened(&line.got, VALUE),
         magnitude(line.error),
         magnitude(line.tolerance),
         verdict(line).to_owned(),

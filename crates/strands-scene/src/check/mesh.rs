@@ -2,6 +2,7 @@
 
 use super::numbers::{rest_curvature, thickness};
 use super::{Remarks, View, metres};
+use crate::MeshChoice;
 use strands::rod::Rod;
 
 /// Fewer elements than this are told of.
@@ -14,6 +15,10 @@ pub(super) fn element_lengths(rod: &Rod) -> [f64; 2] {
 }
 
 pub(super) fn look(remarks: &mut Remarks<'_>, view: &View<'_>) {
+    // A mesh that is chosen for a tolerance is not yet there.
+    if let MeshChoice::Tolerance(_) = view.rod.mesh {
+        return;
+    }
     let rod = &view.rod.problem.rod;
     let [shortest, longest] = element_lengths(rod);
     let (curvature, s) = rest_curvature(rod);

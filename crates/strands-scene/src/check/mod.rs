@@ -72,14 +72,16 @@ pub struct RodCheck {
 impl Scene {
     /// What looks wrong, found without solving anything; warnings first.
     pub fn remarks(&self) -> Vec<Remark> {
-        let mut remarks = Remarks::of(&self.document);
-        units::look(&mut remarks, &self.file);
+        let mut remarks = self.slips();
+        let slipped = remarks.warned();
         for view in self.views() {
-            let numbers = Numbers::expected(&view);
-            units::look_at_rod(&mut remarks, &view);
-            reach::look(&mut remarks, &view, &numbers);
-            buckling::look(&mut remarks, &view);
-            mesh::look(&mut remarks, &view);
+            reach::look(&mut remarks, &view);
+            // What follows from a slip is not worth a word of its own.
+            if !slipped {
+                reach::look_at_loads(&mut remarks, &view);
+                buckling::look(&mut remarks, &view);
+                mesh::look(&mut remarks, &view);
+            }
             effect::look_at_rod(&mut remarks, &view);
         }
         effect::look(&mut remarks, &self.file);
@@ -88,6 +90,7 @@ impl Scene {
 
     /// The same, with the numbers of each rod and what two solves of it tell.
     pub fn check(&self) -> Check {
+        let slipped = self.slips().warned();
         let mut remarks = Remarks { list: self.remarks(), ..Remarks::of(&self.document) };
         let mut rods = Vec::with_capacity(self.model.rods.len());
         for view in self.views() {
@@ -97,7 +100,9 @@ impl Scene {
             if let Trial::Solved { tension, .. } = trial {
                 numbers.tension = Tension { value: tension, found: true };
             }
-            trial::look(&mut remarks, &view, &numbers, &trial);
+            if !slipped {
+                trial::look(&mut remarks, &view, &numbers, &trial);
+            }
             let mesh = &rod.problem.rod;
             rods.push(RodCheck {
                 name: rod.name.clone(),
@@ -110,6 +115,14 @@ impl Scene {
             });
         }
         Check { rods, remarks: remarks.sorted() }
+    }
+
+    /// Numbers that are off by a thousand.
+    fn slips(&self) -> Remarks<'_> {
+        let mut remarks = Remarks::of(&self.document);
+        units::look(&mut remarks, &self.file);
+        self.views().for_each(|view| units::look_at_rod(&mut remarks, &view));
+        remarks
     }
 
     fn views(&self) -> impl Iterator<Item = View<'_>> {
@@ -183,6 +196,10 @@ impl<'a> Remarks<'a> {
 
     fn add(&mut self, level: Level, path: &KeyPath, message: String, mend: impl Into<String>) {
         self.list.push(Remark { level, said: self.document.error(path, message).mend(mend) });
+    }
+
+    fn warned(&self) -> bool {
+        self.list.iter().any(|remark| remark.level == Level::Warning)
     }
 
     fn sorted(mut self) -> Vec<Remark> {

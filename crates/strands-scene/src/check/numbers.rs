@@ -51,7 +51,9 @@ impl Numbers {
                 Frame::Body => following += force.norm(),
             }
         }
-        let points = |of: &dyn Fn(&strands::load::PointLoad) -> f64| loads.points.iter().map(of).sum::<f64>();
+        let points = |of: &dyn Fn(&strands::load::PointLoad) -> f64| {
+            loads.points.iter().map(of).fold(0.0, |sum, x| sum + x)
+        };
         let numbers = Self {
             length,
             radius: radius(rod),

@@ -10,7 +10,8 @@ const MUCH_STRETCH: f64 = 0.03;
 /// Beyond this strain the law, stress in proportion to strain, holds for hardly any material.
 pub(super) const MUCH_STRAIN: f64 = 0.1;
 
-pub(super) fn look(remarks: &mut Remarks<'_>, view: &View<'_>, numbers: &Numbers) {
+/// Looks at the supports.
+pub(super) fn look(remarks: &mut Remarks<'_>, view: &View<'_>) {
     let rod = &view.rod.problem.rod;
     for stretch in stretches(view) {
         let by = stretch.stretch();
@@ -45,6 +46,11 @@ pub(super) fn look(remarks: &mut Remarks<'_>, view: &View<'_>, numbers: &Numbers
             _ => {}
         }
     }
+}
+
+/// Looks at what the loads would do if they all pulled along the rod.
+pub(super) fn look_at_loads(remarks: &mut Remarks<'_>, view: &View<'_>) {
+    let (rod, numbers) = (&view.rod.problem.rod, Numbers::expected(view));
     let pull = numbers.force + numbers.weight * numbers.length;
     if let Some(axial) = axial(rod)
         && pull > MUCH_STRAIN * axial
@@ -62,10 +68,11 @@ pub(super) fn look(remarks: &mut Remarks<'_>, view: &View<'_>, numbers: &Numbers
     }
 }
 
-/// The key of the largest force at a point or along a stretch; gravity's where there is none.
+/// The key of the largest force at a point or along a stretch; gravity's where the weight is larger.
 fn largest_load(view: &View<'_>) -> KeyPath {
     let loads = view.path.key("loads");
     let length = view.rod.problem.rod.length();
+    let weight = view.rod.loads.gravity.norm() * view.rod.problem.rod.node_mass().iter().sum::<f64>();
     let forces = view.file.loads.iter().enumerate().filter_map(|(i, load)| {
         let place = loads.index(i);
         let norm = |force: [f64; 3]| force.iter().map(|x| x * x).sum::<f64>().sqrt();
@@ -78,6 +85,5 @@ fn largest_load(view: &View<'_>) -> KeyPath {
         };
         load.force.map(|force| (place.key("force"), norm(force))).or_else(|| load.force_per_length.map(along))
     });
-    let largest = forces.reduce(|most, here| if here.1 > most.1 { here } else { most });
-    largest.map_or_else(|| KeyPath::of("gravity"), |(path, _)| path)
+    forces.fold((KeyPath::of("gravity"), weight), |most, here| if here.1 > most.1 { here } else { most }).0
 }
