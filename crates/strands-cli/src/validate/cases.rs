@@ -131,3 +131,18 @@ fn without_zeros(quantity: &str) -> String {
         None => quantity.to_owned(),
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn an_error_out_of_its_tolerance_and_a_row_without_a_solution_fail() {
+        let case = strands_cases::find("steel-tip-wrench").expect("a case of that name");
+        assert!(lines(&case).iter().all(Line::ok));
+        let strict = lines(&Case { tolerance: 1e-18, ..case.clone() });
+        assert!(strict.iter().any(|line| !line.ok()), "{strict:?}");
+        let uncut = lines(&Case { elements: 0, ..case });
+        assert!(uncut.len() == 1 && !uncut[0].ok() && uncut[0].got.contains("element"), "{uncut:?}");
+    }
+}

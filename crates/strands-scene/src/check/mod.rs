@@ -13,7 +13,7 @@ mod trial;
 mod units;
 
 pub use numbers::{Numbers, Tension};
-pub use trial::Trial;
+pub use trial::{Fault, Trial};
 
 use crate::document::{Document, KeyPath};
 use crate::error::SceneError;

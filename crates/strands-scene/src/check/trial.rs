@@ -5,10 +5,10 @@ use super::mesh::element_lengths;
 use super::numbers::{Numbers, bend, radius};
 use super::reach::MUCH_STRAIN;
 use super::{Remarks, View, metres, short};
-use crate::model::{MAX_ELEMENTS, Model, ModelRod};
+use crate::model::{MAX_ELEMENTS, MeshError, Model, ModelRod};
 use strands::math::Pose;
 use strands::rod::{Mesh, Rod};
-use strands::statics::{FailureReason, Problem, Settings, Solution, Workspace, solve};
+use strands::statics::{FailureReason, Problem, RefineError, Settings, Solution, Workspace, solve};
 
 /// What a trial found.
 #[derive(Clone, Debug, PartialEq)]
@@ -27,17 +27,32 @@ pub enum Trial {
     Failed {
         /// Why.
         reason: String,
-        /// Whether the supports alone say so.
-        out_of_reach: bool,
+        /// What is at fault, as far as it is known.
+        fault: Fault,
     },
+}
+
+/// What a failed trial is the fault of.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Fault {
+    /// The supports, which are out of the rod's reach.
+    Supports,
+    /// The mesh, too coarse for the tension or its tolerance.
+    Mesh,
+    /// Not known.
+    Unknown,
 }
 
 /// Tries a rod, on the mesh for its tolerance where it gives one: the rod on that mesh, what it was solved with, and what was found.
 pub(super) fn trial(model: &Model, rod: &ModelRod) -> (ModelRod, Settings, Trial) {
     let mut model = model.clone();
-    let failed = |reason: String| Trial::Failed { reason, out_of_reach: false };
-    if let Err(error) = model.refine(&rod.name) {
-        return (rod.clone(), model.settings, failed(error.to_string()));
+    match model.refine(&rod.name) {
+        // Without an equilibrium on one of the meshes there is none to be expected on the first one either, and its failure says why.
+        Ok(()) | Err(MeshError { reason: RefineError::Solve(_), .. }) => {}
+        Err(MeshError { reason, .. }) => {
+            let failed = Trial::Failed { reason: reason.to_string(), fault: Fault::Mesh };
+            return (rod.clone(), model.settings, failed);
+        }
     }
     let settings = model.settings;
     let rod = model.rod(&rod.name).unwrap_or(rod).clone();
@@ -45,7 +60,11 @@ pub(super) fn trial(model: &Model, rod: &ModelRod) -> (ModelRod, Settings, Trial
     let trial = match solve(&rod.problem, &settings, None, &mut workspace) {
         Err(failure) => Trial::Failed {
             reason: failure.reason.to_string(),
-            out_of_reach: matches!(failure.reason, FailureReason::OutOfReach { .. }),
+            fault: match failure.reason {
+                FailureReason::OutOfReach { .. } => Fault::Supports,
+                FailureReason::TooCoarse { .. } => Fault::Mesh,
+                _ => Fault::Unknown,
+            },
         },
         Ok(solution) => Trial::Solved {
             estimated_error: estimate(&rod, &solution, &settings, &mut workspace),
@@ -108,10 +127,11 @@ pub(super) fn look(remarks: &mut Remarks<'_>, view: &View<'_>, numbers: &Numbers
     let (error, strain) = match trial {
         Trial::Solved { estimated_error, strain, .. } => (*estimated_error, *strain),
         // The supports have been told of.
-        Trial::Failed { out_of_reach: true, .. } => return,
-        Trial::Failed { reason, .. } => {
+        Trial::Failed { fault: Fault::Supports, .. } => return,
+        Trial::Failed { reason, fault } => {
+            let key = if *fault == Fault::Mesh { view.mesh_key() } else { view.path.clone() };
             let (what, mend) = reason.split_once("; ").unwrap_or((reason, "use more elements, or less load"));
-            return remarks.warn(&view.path, format!("a trial failed: {what}"), mend);
+            return remarks.warn(&key, format!("a trial failed: {what}"), mend);
         }
     };
     let [_, longest] = element_lengths(rod);
