@@ -19,12 +19,16 @@ pub struct Arguments {
 pub enum Command {
     /// Find the equilibrium of a scene
     Solve(Solve),
+    /// Say how hard a scene is, and what looks wrong with it
+    Check(Check),
     /// Show a scene in the browser, to hold in the hand
     View(View),
     /// Write a new scene file, with comments
     New(New),
     /// Print the JSON Schema of scene files
     Schema,
+    /// Solve problems with known answers, and compare
+    Validate(Validate),
     /// Measure what the solvers cost on this machine
     #[command(after_help = crate::bench::NAMES)]
     Bench {
@@ -93,6 +97,26 @@ pub struct Solve {
     pub overrides: Overrides,
 }
 
+/// `strands check`.
+#[derive(Debug, Args)]
+#[command(after_help = "\
+Of each rod: its slenderness; its loads over its stiffness, w L³/EI for weight and distributed forces, P L²/EI
+for forces at points, M L/EI for moments (far below 1 it hardly bends; from 100 on, its stiffness hardly
+matters); its length over the length ℓ = √(EI/T) over which it bends under its tension T; the solver that
+\"auto\" takes first; and the error of its mesh, estimated from two solves. Then warnings, where something is
+probably a slip or an answer not to be relied on, and notes.
+
+Exit status: 0 with warnings or without, 1 bad scene or arguments.")]
+pub struct Check {
+    /// A scene file (.toml or .json), `-` for standard input, or the bare name of a bundled scene
+    pub scene: String,
+    /// Print one JSON object and nothing else
+    #[arg(long)]
+    pub json: bool,
+    #[command(flatten)]
+    pub overrides: Overrides,
+}
+
 /// Changes to the scene.
 #[derive(Debug, Default, Args)]
 pub struct Overrides {
@@ -134,4 +158,24 @@ pub struct New {
     /// The bundled scene to start from
     #[arg(long, default_value = "suture")]
     pub template: String,
+}
+
+/// `strands validate`.
+#[derive(Debug, Args)]
+#[command(
+    after_help = "Exit status: 0 all within their tolerances, 1 bad arguments, 2 a comparison is out of its tolerance or a case is not solved."
+)]
+pub struct Validate {
+    /// Cases, by their names or parts of them, such as cantilever or bend-45; without any, all
+    pub names: Vec<String>,
+    /// Print every comparison, in place of the worst of each case
+    #[arg(long)]
+    pub rows: bool,
+    /// Print one JSON object: {"cases", "comparisons", "failed", "seconds", "lines": [{"case", "row", "quantity", "expected", "got",
+    /// "error", "tolerance", "ok", …}]}
+    #[arg(long)]
+    pub json: bool,
+    /// Write a report with sources and plots of the error against the number of elements
+    #[arg(short, long, value_name = "FILE.html")]
+    pub output: Option<PathBuf>,
 }

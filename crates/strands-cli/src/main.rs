@@ -2,6 +2,7 @@
 
 mod args;
 mod bench;
+mod check;
 mod drawing;
 mod many;
 mod new;
@@ -11,6 +12,7 @@ mod solve;
 mod source;
 mod summary;
 mod units;
+mod validate;
 mod view;
 
 use std::io::{IsTerminal, Write, stdout};
@@ -25,7 +27,7 @@ use strands::math::SimdLevel;
 pub enum Failure {
     /// A bad scene, a bad argument, a file that cannot be read or written: what to tell the person.
     Bad(String),
-    /// A solve found no equilibrium, or none within the tolerance; its answer has been printed.
+    /// A solve found no equilibrium, or none within the tolerance, or a comparison failed; the answer has been printed.
     Unsolved,
 }
 
@@ -70,8 +72,10 @@ fn main() -> ExitCode {
 fn run(command: Command) -> Result<(), Failure> {
     match command {
         Command::Solve(options) => solve::run(&options),
+        Command::Check(options) => check::run(&options),
         Command::New(options) => new::run(&options),
         Command::View(options) => view::run(&options),
+        Command::Validate(options) => validate::run(&options),
         Command::Bench { kernel: Some(kernel), times, .. } => {
             bench::run(&kernel, times.unwrap_or(1)).map_err(Failure::bad)
         }

@@ -7,7 +7,7 @@ use strands::statics::{RefineError, Solution, Workspace, solve};
 use strands_scene::{MeshError, Model, write};
 
 use crate::args::Solve;
-use crate::{Failure, colour_out, many, overrides, say, source, summary};
+use crate::{Failure, check, colour_out, many, overrides, say, source, summary};
 
 /// A solved scene.
 #[derive(Debug)]
@@ -60,7 +60,9 @@ pub fn run(options: &Solve) -> Result<(), Failure> {
     if let Some(path) = &options.path {
         return many::path(options, &source, path, &outputs);
     }
-    let outcome = solve_all(source.parse()?.model)?;
+    let scene = source.parse()?;
+    check::warn(&scene.remarks());
+    let outcome = solve_all(scene.model)?;
     for (path, format) in outputs {
         match format.bytes(&outcome) {
             Some(bytes) => {

@@ -80,6 +80,11 @@ impl SceneError {
 
     /// The error as text for a terminal, with its line marked.
     pub fn render(&self, colour: bool) -> String {
+        self.render_as(Level::ERROR, colour)
+    }
+
+    /// The same under another title than "error".
+    pub(crate) fn render_as(&self, level: Level<'static>, colour: bool) -> String {
         let Details { source, file, span, key, message, mends } = &*self.0;
         let mut elements: Vec<Element<'_>> = Vec::with_capacity(1 + mends.len());
         if let Some(source) = source {
@@ -88,7 +93,7 @@ impl SceneError {
             elements.push(Snippet::source(&*source.text).path(file.as_str()).annotation(mark).into());
         }
         elements.extend(mends.iter().map(|mend| Element::from(Level::HELP.message(mend.as_str()))));
-        let group = Level::ERROR.primary_title(message.as_str()).elements(elements);
+        let group = level.primary_title(message.as_str()).elements(elements);
         let renderer = if colour { Renderer::styled() } else { Renderer::plain() };
         renderer.render(&[group])
     }

@@ -16,6 +16,7 @@
 
 mod build;
 mod bundled;
+pub mod check;
 mod document;
 mod error;
 mod file;
@@ -32,6 +33,7 @@ pub use schema::schema;
 
 use document::{Document, KeyPath, Value};
 use std::path::Path;
+use std::sync::Arc;
 
 /// The version of the format that this crate reads.
 const FORMAT: i64 = 1;
@@ -43,6 +45,8 @@ pub struct Scene {
     pub file: SceneFile,
     /// As understood.
     pub model: Model,
+    /// The text, to point at.
+    document: Arc<Document>,
 }
 
 impl Scene {
@@ -53,7 +57,7 @@ impl Scene {
     pub fn parse(text: &str, file_name: &str, folder: Option<&Path>) -> Result<Self, SceneError> {
         let (document, file) = written(text, file_name)?;
         let model = build::model(&document, &file, folder)?;
-        Ok(Self { file, model })
+        Ok(Self { file, model, document: Arc::new(document) })
     }
 
     /// Reads a scene from a file.

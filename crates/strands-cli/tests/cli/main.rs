@@ -1,8 +1,10 @@
 //! What the command prints, and how it ends.
 
+mod check;
 mod common;
 mod many;
 mod readme;
+mod validate;
 mod view;
 
 use common::{command, folder, scenes, strands, strands_with};
@@ -20,7 +22,7 @@ fn assert_golden(name: &str, text: &str) {
 
 #[test]
 fn help_says_what_there_is() {
-    for command in ["", "solve", "view", "new", "schema", "bench", "completions"] {
+    for command in ["", "solve", "check", "view", "new", "schema", "validate", "bench", "completions"] {
         let arguments: Vec<&str> = command.split_whitespace().chain(["--help"]).collect();
         let run = strands(&arguments);
         assert_eq!((run.code, run.err.as_str()), (0, ""));
@@ -114,6 +116,8 @@ fn bad_arguments_are_status_one_and_say_what_to_do() {
         (vec!["solve", "sutur"], "did you mean `suture`?"),
         (vec!["solve", "sutur"], "Bundled scenes: "),
         (vec!["sovle"], "solve"),
+        (vec!["validate", "bend-54"], "the nearest are `bend-45`"),
+        (vec!["validate", "-o", "a.pdf"], "name it .html"),
         (vec![], "Usage"),
     ] {
         let run = strands(&arguments);

@@ -11,6 +11,7 @@ mod fit;
 mod march;
 mod nodal;
 mod path;
+mod plan;
 mod problem;
 mod refine;
 mod search;
@@ -21,6 +22,7 @@ mod sweep;
 mod variation;
 
 pub use continuation::{Event, EventKind, Path, PathEnd, PathError, PathPoint, PathSettings, follow_path};
+pub use plan::{Plan, plan};
 pub use problem::{Problem, Support};
 pub use refine::{RefineError, Refined, refine};
 pub use search::{SearchSettings, equilibria};
@@ -35,6 +37,7 @@ use crate::rod::{Kinematics, Order};
 use boundary::{EndState, loaded_start};
 use equilibrium::{Stretch, stretches};
 use march::{Record, turned};
+use plan::Way;
 use shooting::{Outcome, Search, shoot};
 
 /// Finds an equilibrium of a problem, starting from a guess (the last frame's solution) or from rest.
@@ -97,8 +100,8 @@ pub fn follow(
     converged
 }
 
-/// Chooses the way: two sweeps where they suffice; from a guess a search by shooting where that keeps its digits, and all frames at once where
-/// not; and from rest.
+/// Takes the way that [`plan`] chooses: two sweeps where they suffice; from a guess a search by shooting where that keeps its digits, and all
+/// frames at once where not; and from rest.
 fn find(
     problem: &Problem,
     settings: &Settings,
@@ -106,15 +109,15 @@ fn find(
     workspace: &mut Workspace,
     report: &mut SolveReport,
 ) -> Search {
-    let sweeps =
-        matches!(settings.method, Method::Auto | Method::Sweep) && sweep::not_standard(problem).is_none();
+    let plan = plan(problem, settings, guess);
+    let sweeps = plan.method == Method::Sweep;
     report.method = if sweeps { Method::Sweep } else { Method::Shooting };
     report.path_steps = 1;
-    if sweeps && !problem.loads.any_in_world() {
+    if plan.way == Way::TwoSweeps {
         return sweep::two_sweeps(problem, settings, workspace, report);
     }
     if let Some(guess) = guess {
-        let search = from_guess(problem, settings, guess, workspace, report);
+        let search = from_guess(problem, settings, guess, plan.way, workspace, report);
         if search.outcome == Outcome::Converged || !settings.restart_from_rest {
             return search;
         }
@@ -144,14 +147,14 @@ fn from_guess(
     problem: &Problem,
     settings: &Settings,
     guess: &Guess,
+    way: Way,
     workspace: &mut Workspace,
     report: &mut SolveReport,
 ) -> Search {
-    if all_at_once(problem, settings, guess) {
-        if !has_energy(problem, settings) {
-            return by_moving(problem, settings, workspace, report);
-        }
-        return equilibrium::from_guess(problem, settings, guess, workspace, report);
+    match way {
+        Way::Settle => return by_moving(problem, settings, workspace, report),
+        Way::Move => return equilibrium::from_guess(problem, settings, guess, workspace, report),
+        _ => {}
     }
     let state = EndState::from_guess(problem, guess);
     let search = shoot(problem, settings, state, guess.inverse, workspace, report);
@@ -175,18 +178,12 @@ fn from_rest(
     workspace: &mut Workspace,
     report: &mut SolveReport,
 ) -> Search {
-    if settings.method == Method::Equilibrium {
-        return equilibrium::from_rest(problem, settings, workspace, report);
-    }
-    if settings.method != Method::Auto {
-        return by_shooting(problem, settings, workspace, report);
-    }
-    if is_held(problem) {
+    if plan(problem, settings, None).way == Way::Settle {
         return by_moving(problem, settings, workspace, report);
     }
     // One that hangs free from its clamp is loaded little by little, so that of many equilibria it finds the one on the path of loads.
     let search = by_shooting(problem, settings, workspace, report);
-    if search.outcome == Outcome::Converged {
+    if search.outcome == Outcome::Converged || settings.method != Method::Auto {
         return search;
     }
     by_moving(problem, settings, workspace, report)

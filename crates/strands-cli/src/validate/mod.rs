@@ -1,0 +1,133 @@
+//! `strands validate`: the named problems of `strands-cases`, solved and set beside what is known of them.
+
+mod cases;
+mod convergence;
+mod line;
+mod plot;
+mod report;
+mod table;
+
+use std::path::Path;
+use std::time::Instant;
+
+use crate::args::Validate;
+use crate::{Failure, colour_out, say};
+use line::Line;
+
+/// Something that can be validated: a name, and what finds its lines.
+struct Entry {
+    name: String,
+    lines: Box<dyn FnOnce() -> Vec<Line>>,
+}
+
+/// All that can be validated, in the order in which it is printed. Problems of another kind are one more list of entries here.
+fn catalogue() -> Vec<Entry> {
+    cases::entries()
+}
+
+/// What a run found.
+struct Findings {
+    /// How many cases were run.
+    cases: usize,
+    /// Each comparison, those of a case together.
+    lines: Vec<Line>,
+    /// How long it took, s.
+    seconds: f64,
+}
+
+/// The command.
+///
+/// # Errors
+/// Names that there are not, a report that cannot be written; and, once everything is said, a comparison out of its tolerance.
+pub fn run(options: &Validate) -> Result<(), Failure> {
+    if let Some(path) = &options.output
+        && !path.extension().is_some_and(|ending| ending.eq_ignore_ascii_case("html"))
+    {
+        return Err(Failure::bad(format!("{}: the report is HTML; name it .html", path.display())));
+    }
+    let start = Instant::now();
+    let chosen = chosen(catalogue(), &options.names)?;
+    let cases = chosen.len();
+    let lines = chosen.into_iter().flat_map(|entry| (entry.lines)()).collect();
+    let findings = Findings { cases, lines, seconds: start.elapsed().as_secs_f64() };
+    if let Some(path) = &options.output {
+        write(path, &findings)?;
+    }
+    if options.json {
+        say(&findings.json())?;
+    } else {
+        say(&table::table(&findings, options.rows, colour_out()))?;
+    }
+    if findings.failed() > 0 { Err(Failure::Unsolved) } else { Ok(()) }
+}
+
+/// The entries that the names mean: the one of that name, or else all whose names contain it. Without names, all.
+fn chosen(catalogue: Vec<Entry>, names: &[String]) -> Result<Vec<Entry>, Failure> {
+    let known: Vec<&str> = catalogue.iter().map(|entry| entry.name.as_str()).collect();
+    let mut wanted = vec![names.is_empty(); known.len()];
+    for name in names {
+        let whole = known.contains(&name.as_str());
+        let means = |other: &str| if whole { other == name } else { other.contains(name.as_str()) };
+        if !known.iter().any(|other| means(other)) {
+            return Err(unknown(name, &known));
+        }
+        wanted.iter_mut().zip(&known).for_each(|(wanted, other)| *wanted |= means(other));
+    }
+    Ok(catalogue.into_iter().zip(wanted).filter_map(|(entry, wanted)| wanted.then_some(entry)).collect())
+}
+
+/// How many near names are told.
+const NEAREST: usize = 3;
+
+fn unknown(name: &str, known: &[&str]) -> Failure {
+    let mut near = known.to_vec();
+    near.sort_by_key(|other| strsim::damerau_levenshtein(name, other));
+    let near: Vec<String> = near.iter().take(NEAREST).map(|other| format!("`{other}`")).collect();
+    Failure::bad(format!(
+        "no case is named `{name}`, or has it in its name; the nearest are {}\nAll {}: {}",
+        near.join(", "),
+        known.len(),
+        known.join(", ")
+    ))
+}
+
+fn write(path: &Path, findings: &Findings) -> Result<(), Failure> {
+    let curves = convergence::curves(&findings.names());
+    std::fs::write(path, report::html(findings, &curves))
+        .map_err(|error| Failure::file(path.display(), &error))
+}
+
+impl Findings {
+    /// How many comparisons are out of their tolerance.
+    fn failed(&self) -> usize {
+        self.lines.iter().filter(|line| !line.ok()).count()
+    }
+
+    /// The lines of each case.
+    fn by_case(&self) -> impl Iterator<Item = &[Line]> {
+        self.lines.chunk_by(|a, b| a.case == b.case)
+    }
+
+    fn names(&self) -> Vec<&str> {
+        self.by_case().map(|lines| lines[0].case.as_str()).collect()
+    }
+
+    /// The last line of the table.
+    fn summary(&self) -> String {
+        let Self { cases, lines, seconds } = self;
+        format!("{cases} cases, {} comparisons, {} failed, {seconds:.1} s", lines.len(), self.failed())
+    }
+
+    /// The findings as one JSON object. An error without a number, where there is no solution, is null.
+    fn json(&self) -> String {
+        let lines: Vec<serde_json::Value> = self.lines.iter().map(Line::json).collect();
+        serde_json::json!({
+            "cases": self.cases,
+            "comparisons": self.lines.len(),
+            "failed": self.failed(),
+            "seconds": self.seconds,
+            "lines": lines,
+        })
+        .to_string()
+    }
+}

@@ -1,0 +1,65 @@
+//! What has no effect: keys that a static solve does not use, loads that go straight into a support, rods that nothing loads.
+
+use super::{Remarks, View, metres};
+use crate::document::KeyPath;
+use crate::file::SceneFile;
+use strands::math::Vec6;
+
+/// How far a support may be from where the unloaded rod is, as a part of the length and in rad, and still leave it as it is.
+const AS_IT_IS: f64 = 1e-9;
+
+/// Looks at the keys for motion and contact.
+pub(super) fn look(remarks: &mut Remarks<'_>, file: &SceneFile) {
+    let why = "it is kept for later versions, and may stay";
+    let mut unused = |path: &KeyPath, what: &str| {
+        remarks.note(
+            path,
+            format!("{what} has no effect: a rod is solved at rest, and touches nothing"),
+            why,
+        );
+    };
+    if file.dynamics.is_some() {
+        unused(&KeyPath::of("dynamics"), "`[dynamics]`");
+    }
+    if file.contact.is_some() {
+        unused(&KeyPath::of("contact"), "`[contact]`");
+    }
+    for (name, material) in &file.materials {
+        if material.damping.is_some() {
+            unused(&KeyPath::of("materials").key(name).key("damping"), "`damping`");
+        }
+    }
+}
+
+/// Looks at a rod's loads.
+pub(super) fn look_at_rod(remarks: &mut Remarks<'_>, view: &View<'_>) {
+    let problem = &view.rod.problem;
+    let (loads, length) = (&problem.loads, problem.rod.length());
+    for (i, load) in view.file.loads.iter().enumerate() {
+        let Some(at) = load.at.map(|at| at.metres(length)) else { continue };
+        let clamped = problem.rod.mesh().node_at(at).and_then(|node| problem.support(node));
+        if clamped.is_some_and(|support| support.fixed == [true; 6]) {
+            remarks.note(
+                &view.path.key("loads").index(i).key("at"),
+                format!(
+                    "the load at s = {} acts where the rod is clamped, and goes straight into the support",
+                    metres(at)
+                ),
+                "move it, or the support, if it is to bend the rod",
+            );
+        }
+    }
+    let rest = problem.rod.rest_poses();
+    let moved = problem.supports().filter(|(_, support)| support.holds_anything()).any(|(node, support)| {
+        let by = rest[node].between(&support.pose).log();
+        by.angular.max_abs().max(by.linear.max_abs() / length) > AS_IT_IS
+    });
+    let loaded = loads.world.iter().chain(&loads.body).any(|load| *load != Vec6::ZERO);
+    if !moved && !loaded && view.rod.hand.is_none() {
+        remarks.note(
+            &view.path,
+            "nothing loads the rod: it keeps its rest shape".to_owned(),
+            "add a load, gravity and a density, or a support that holds it elsewhere",
+        );
+    }
+}
