@@ -4,10 +4,13 @@
 //! sweeps when the loads follow the rod; with dead loads, whose direction in the material frame depends on how the end is turned, and
 //! with a prescribed end, it is a search for what is unknown at the end: [`Method::Shooting`].
 
+mod almost_block_diagonal;
 mod boundary;
+mod chain;
 mod equilibrium;
 mod fit;
 mod march;
+mod multiple_shooting;
 mod nodal;
 mod path;
 mod problem;
@@ -80,7 +83,9 @@ pub fn follow(
     if fit::unfit(problem, settings).is_some() {
         return false;
     }
-    let search = if all_at_once(problem, settings, guess) {
+    let search = if settings.method == Method::MultipleShooting {
+        multiple_shooting::from_guess(problem, settings, guess, workspace, report)
+    } else if all_at_once(problem, settings, guess) {
         equilibrium::from_guess(problem, settings, guess, workspace, report)
     } else {
         let state = EndState::from_guess(problem, guess);
@@ -143,6 +148,9 @@ fn from_guess(
     workspace: &mut Workspace,
     report: &mut SolveReport,
 ) -> Search {
+    if settings.method == Method::MultipleShooting {
+        return multiple_shooting::from_guess(problem, settings, guess, workspace, report);
+    }
     if all_at_once(problem, settings, guess) {
         if !has_energy(problem, settings) {
             return by_moving(problem, settings, workspace, report);
@@ -173,6 +181,9 @@ fn from_rest(
 ) -> Search {
     if settings.method == Method::Equilibrium {
         return equilibrium::from_rest(problem, settings, workspace, report);
+    }
+    if settings.method == Method::MultipleShooting {
+        return multiple_shooting::from_rest(problem, settings, workspace, report);
     }
     if settings.method != Method::Auto {
         return by_shooting(problem, settings, workspace, report);

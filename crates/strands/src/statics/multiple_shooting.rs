@@ -1,0 +1,274 @@
+//! Multiple shooting: Newton's method on the frame and wrench at several joints along the rod.
+//!
+//! Single shooting loses a factor `exp(L/ℓ)` of its digits under a tension `T` that bends the rod over `ℓ = √(EI/T)`. Cut into segments of a few `ℓ`
+//! ([`Chain`]), each loses a few tens of it, however long the rod; the joints' unknowns are solved for together, by a [structured
+//! elimination](super::almost_block_diagonal) that never multiplies two segments' derivatives. It finds equilibria whether stable or not.
+//!
+//! The damping is Deuflhard's (2004, *Newton Methods for Nonlinear Problems*, NLEQ-ERR, section 2.1.5): a step is judged by the step that would follow it
+//! with the same derivative, so that neither the units of the equations nor their growth along the segments matter.
+
+use super::almost_block_diagonal::{AlmostBlockDiagonal, Twelve};
+use super::chain::{Chain, units};
+use super::equilibrium::{Mild, balance, by_degrees, found, holds_state_of, lay_out, put_between_supports};
+use super::march::{Section, march};
+use super::problem::Problem;
+use super::shooting::{Outcome, Search, Workspace};
+use super::solution::{Guess, Method, Scheme, Settings, SolveReport};
+use crate::math::{Vec3, Wrench, larger};
+use crate::rod::Scale;
+
+/// The largest turn of a joint in one step, rad.
+const LARGEST_TURN: f64 = 1.0;
+/// A step that has to be damped below this has failed.
+const LEAST_DAMPING: f64 = 1.0 / 4096.0;
+/// A full step that leaves less than this of itself to correct keeps its derivative for the next.
+const WORTHWHILE: f64 = 0.1;
+/// The longest segment, over the rod: where the state is far from a solution, frames in between lead to it.
+const LONGEST_FROM_REST: f64 = 0.1;
+const LONGEST_FROM_AFAR: f64 = 0.25;
+
+/// Scratch of the search.
+#[derive(Clone, Debug, Default)]
+pub(crate) struct MultipleShooting {
+    chain: Chain,
+    trial: Chain,
+    pub(crate) system: AlmostBlockDiagonal,
+    step: Vec<Twelve>,
+    /// The step that would follow with the same derivative.
+    correction: Vec<Twelve>,
+    /// Their difference, as the damping has it.
+    difference: Vec<Twelve>,
+}
+
+/// Searches from a solution nearby: from the state in the workspace where that is it, and elsewhere from what a march from its end makes of it.
+pub(crate) fn from_guess(
+    problem: &Problem,
+    settings: &Settings,
+    guess: &Guess,
+    workspace: &mut Workspace,
+    report: &mut SolveReport,
+) -> Search {
+    report.method = Method::MultipleShooting;
+    if !holds_state_of(guess, problem, &workspace.record) {
+        let end = Section { pose: guess.pose, wrench: guess.wrench };
+        march(workspace.simd, &problem.rod, Scheme::Element, &problem.loads, end, &mut workspace.record);
+        report.sweeps += 1;
+    }
+    let outcome = newton(problem, settings, 1.0, workspace, report);
+    found(problem, outcome, workspace)
+}
+
+/// Searches from the rod laid out between its supports.
+pub(crate) fn from_rest(
+    problem: &Problem,
+    settings: &Settings,
+    workspace: &mut Workspace,
+    report: &mut SolveReport,
+) -> Search {
+    report.method = Method::MultipleShooting;
+    let mild = Mild::new(problem);
+    let laid_out = |problem: &Problem, workspace: &mut Workspace, report: &mut SolveReport| {
+        from_laid_out(problem, settings, workspace, report)
+    };
+    let on = |problem: &Problem, workspace: &mut Workspace, report: &mut SolveReport| {
+        put_between_supports(problem, &mut workspace.record.poses);
+        newton(problem, settings, LONGEST_FROM_AFAR, workspace, report)
+    };
+    let outcome = by_degrees(problem, &mild, laid_out, on, workspace, report);
+    found(problem, outcome, workspace)
+}
+
+/// Tries ways to lay the rod out, one after the other.
+fn from_laid_out(
+    problem: &Problem,
+    settings: &Settings,
+    workspace: &mut Workspace,
+    report: &mut SolveReport,
+) -> Outcome {
+    let mut outcome = Outcome::Stalled;
+    for bend in BENDS {
+        lay_out(problem, bend, &mut workspace.record);
+        workspace.record.wrenches.fill(Wrench::ZERO);
+        outcome = newton(problem, settings, LONGEST_FROM_REST, workspace, report);
+        if outcome == Outcome::Converged {
+            break;
+        }
+    }
+    outcome
+}
+
+/// By how much the rod is bent over its length beside its rest shape, rad.
+const BENDS: [Vec3; 4] =
+    [Vec3::ZERO, Vec3::new(0.3, 0.2, 0.1), Vec3::new(-0.4, 0.5, 0.0), Vec3::new(1.0, -1.0, 0.5)];
+
+/// What is left of a step after it was made.
+struct Left {
+    /// The size of the step.
+    step: f64,
+    /// The size of the one that would follow.
+    correction: f64,
+    damping: f64,
+}
+
+/// Newton's method from the state in the workspace, no segment longer than a part of the rod.
+fn newton(
+    problem: &Problem,
+    settings: &Settings,
+    longest: f64,
+    workspace: &mut Workspace,
+    report: &mut SolveReport,
+) -> Outcome {
+    let (mut units, mut reuse, mut last) = (units(problem, &workspace.record), false, None);
+    workspace.multiple.chain.cut(problem, &workspace.record, longest);
+    evaluate(problem, &units, workspace, report);
+    note(workspace.multiple.chain.residual, report);
+    for _ in 0..settings.max_iterations {
+        let residual = report.residual;
+        if !residual.is_finite() {
+            return Outcome::NotFinite;
+        }
+        if residual <= settings.tolerance {
+            break;
+        }
+        if !reuse {
+            let Workspace { record, simd, multiple, .. } = &mut *workspace;
+            let MultipleShooting { chain, system, step, .. } = multiple;
+            report.factorisations += 1;
+            if chain.linearise(problem, *simd, &units, record, system).is_none() {
+                return Outcome::Singular;
+            }
+            chain.step(system, step);
+        }
+        match damped(problem, &units, last.take(), reuse, workspace, report) {
+            Some(left) => {
+                report.iterations += 1;
+                let multiple = &mut workspace.multiple;
+                core::mem::swap(&mut multiple.chain, &mut multiple.trial);
+                reuse = left.damping >= 1.0 && left.correction <= WORTHWHILE * left.step;
+                if reuse {
+                    core::mem::swap(&mut multiple.step, &mut multiple.correction);
+                } else {
+                    last = Some(left);
+                }
+                note(multiple.chain.residual, report);
+                if multiple.chain.too_long(problem, &workspace.record) {
+                    units = self::units(problem, &workspace.record);
+                    multiple.chain.cut(problem, &workspace.record, longest);
+                    (reuse, last) = (false, None);
+                    evaluate(problem, &units, workspace, report);
+                }
+            }
+            None if reuse => {
+                // The derivative has served its time: the state is marched again, and gets its own.
+                reuse = false;
+                evaluate(problem, &units, workspace, report);
+            }
+            None => {
+                evaluate(problem, &units, workspace, report);
+                return Outcome::Stalled;
+            }
+        }
+    }
+    if !(report.residual <= settings.tolerance) {
+        return Outcome::Stalled;
+    }
+    if reuse {
+        polish(problem, &units, workspace, report);
+    }
+    if workspace.multiple.chain.segments() > 1 {
+        balance(problem, &mut workspace.record);
+    }
+    Outcome::Converged
+}
+
+fn note(residual: f64, report: &mut SolveReport) {
+    report.residual = residual;
+    report.residual_history.push(residual);
+}
+
+fn evaluate(problem: &Problem, units: &Scale, workspace: &mut Workspace, report: &mut SolveReport) {
+    let Workspace { record, simd, multiple, .. } = workspace;
+    multiple.chain.evaluate(problem, *simd, units, record);
+    report.sweeps += 1;
+}
+
+/// Makes the step, or as much of it as leaves less to correct than there was. Leaves the state after it in the trial, and the correction.
+/// `None` where there is no such part; a kept derivative has to serve whole.
+fn damped(
+    problem: &Problem,
+    units: &Scale,
+    last: Option<Left>,
+    reused: bool,
+    workspace: &mut Workspace,
+    report: &mut SolveReport,
+) -> Option<Left> {
+    let Workspace { record, simd, multiple, .. } = workspace;
+    let MultipleShooting { chain, trial, system, step, correction, difference } = multiple;
+    let (size, turn) = chain.size(problem, units, step);
+    let most = (LARGEST_TURN / turn).min(1.0);
+    let mut damping: f64 = match last {
+        // (3.46a) of the book: by how much the last correction was off the step that then followed from a derivative of its own.
+        Some(last) => {
+            subtract(difference, correction, step, 1.0);
+            let off = chain.size(problem, units, difference).0;
+            last.damping * (last.step * last.correction) / (off * size)
+        }
+        None => 1.0,
+    };
+    damping = damping.min(most);
+    let mut raised = false;
+    while damping >= LEAST_DAMPING {
+        trial.stepped(chain, problem, units, step, damping);
+        trial.evaluate(problem, *simd, units, record);
+        report.sweeps += 1;
+        let mut theta = f64::INFINITY;
+        let mut next = 0.1 * damping;
+        let mut left = f64::INFINITY;
+        if trial.residual.is_finite() {
+            trial.step(system, correction);
+            left = trial.size(problem, units, correction).0;
+            theta = left / size;
+            subtract(difference, correction, step, 1.0 - damping);
+            let off = trial.size(problem, units, difference).0;
+            next = (0.5 * size * damping * damping / off).min(most);
+        }
+        if !(theta < 1.0) {
+            if reused {
+                return None;
+            }
+            report.line_search_cuts += 1;
+            damping = next.min(0.5 * damping);
+            raised = true;
+        } else if reused && theta > 0.5 {
+            return None;
+        } else if next >= 4.0 * damping && !raised {
+            // It was damped too much.
+            damping = next;
+            raised = true;
+        } else {
+            return Some(Left { step: size, correction: left, damping });
+        }
+    }
+    None
+}
+
+/// Takes the step that is left with the derivative at hand, if it leaves less than there is: down to round-off.
+fn polish(problem: &Problem, units: &Scale, workspace: &mut Workspace, report: &mut SolveReport) {
+    let Workspace { record, simd, multiple, .. } = workspace;
+    let MultipleShooting { chain, trial, step, .. } = multiple;
+    trial.stepped(chain, problem, units, step, 1.0);
+    trial.evaluate(problem, *simd, units, record);
+    report.sweeps += 1;
+    if larger(trial.residual, chain.residual) == chain.residual {
+        core::mem::swap(chain, trial);
+        report.residual = chain.residual;
+    } else {
+        chain.evaluate(problem, *simd, units, record);
+        report.sweeps += 1;
+    }
+}
+
+fn subtract(difference: &mut Vec<Twelve>, a: &[Twelve], b: &[Twelve], times: f64) {
+    difference.clear();
+    difference.extend(a.iter().zip(b).map(|(a, b)| core::array::from_fn(|k| a[k] - times * b[k])));
+}
