@@ -89,11 +89,6 @@ impl AlmostBlockDiagonal {
         self.last.as_ref().map(|_| ())
     }
 
-    /// How many joints there are before the end, in a system that is complete.
-    pub fn joints(&self) -> Option<usize> {
-        self.last.as_ref().map(|_| self.used)
-    }
-
     /// Solves for right-hand sides at the start and at the joints. The unknowns replace those of the joints, and the end's, six of them, come
     /// after them.
     pub fn solve(&self, start: &[f64; END], unknowns: &mut [Twelve]) {

@@ -94,19 +94,24 @@ fn laid_out(
 }
 
 /// Lays a rod out between its supports by its rest shape, bent by so much (rad) over its length. It carries nothing.
-pub(crate) fn lay_out(problem: &Problem, bend: Vec3, record: &mut Record) {
+pub(crate) fn lay_out(problem: &Problem, more: Vec3, record: &mut Record) {
+    bend(problem, more, record);
+    put_between_supports(problem, &mut record.poses);
+}
+
+/// Bends a rod that carries nothing by so much more than its rest shape, rad over its length.
+pub(crate) fn bend(problem: &Problem, more: Vec3, record: &mut Record) {
     let rod = &problem.rod;
     record.fit(rod.elements());
     record.wrenches.fill(Wrench::ZERO);
     record.poses[0] = rod.description().base;
-    let bend = Strain::new(bend * (1.0 / rod.length()), Vec3::ZERO);
+    let more = Strain::new(more * (1.0 / rod.length()), Vec3::ZERO);
     for e in 0..rod.elements() {
         record.strains[e] = rod.rest_strains(e);
-        let bent = record.strains[e].map(|strain| strain + bend);
+        let bent = record.strains[e].map(|strain| strain + more);
         let relative = Pose::exp(element::exponent(rod.order(), rod.element_length(e), &bent));
         record.poses[e + 1] = record.poses[e].compose(&relative);
     }
-    put_between_supports(problem, &mut record.poses);
 }
 
 /// A milder problem, from which to get to a hard one by degrees.

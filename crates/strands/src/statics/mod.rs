@@ -165,7 +165,7 @@ fn from_guess(
     if settings.method == Method::Auto && has_energy(problem, settings) && is_held(problem) {
         return equilibrium::from_guess(problem, settings, guess, workspace, report);
     }
-    path::from_solution(problem, guess, settings, workspace, report)
+    path::from_solution(shoot, problem, guess, settings, workspace, report)
 }
 
 /// Whether the rod is held by more than its clamped start.
@@ -227,11 +227,11 @@ fn by_shooting(
     report: &mut SolveReport,
 ) -> Search {
     if !problem.end.fixed[3..].contains(&true) {
-        return path::from_rest(problem, settings, Vec3::ZERO, workspace, report);
+        return path::from_rest(shoot, problem, settings, Vec3::ZERO, workspace, report);
     }
     let mut best: Option<Search> = None;
     for nudge in path::nudges(problem) {
-        let search = path::from_rest(problem, settings, nudge, workspace, report);
+        let search = path::from_rest(shoot, problem, settings, nudge, workspace, report);
         let converged = search.outcome == Outcome::Converged;
         if converged && stability::morse_index(problem, workspace).unwrap_or(0) == 0 {
             return search;

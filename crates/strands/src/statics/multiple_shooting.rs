@@ -9,13 +9,16 @@
 
 use super::almost_block_diagonal::{AlmostBlockDiagonal, Twelve};
 use super::chain::{Chain, units};
-use super::equilibrium::{Mild, balance, by_degrees, found, holds_state_of, lay_out, put_between_supports};
-use super::march::{Section, march};
+use super::equilibrium::{Mild, balance, bend, by_degrees, found, holds_state_of, lay_out, put_between_supports};
+use super::boundary::{EndState, meet};
+use super::march::{Record, Section, march};
+use super::path;
 use super::problem::Problem;
-use super::shooting::{Outcome, Search, Workspace};
+use super::shooting::{Inverse, Outcome, Search, Workspace};
 use super::solution::{Guess, Method, Scheme, Settings, SolveReport};
+use super::stability::morse_index;
 use crate::math::{Vec3, Wrench, larger};
-use crate::rod::Scale;
+use crate::rod::{Kinematics, Scale};
 
 /// The largest turn of a joint in one step, rad.
 const LARGEST_TURN: f64 = 1.0;
@@ -38,6 +41,8 @@ pub(crate) struct MultipleShooting {
     correction: Vec<Twelve>,
     /// Their difference, as the damping has it.
     difference: Vec<Twelve>,
+    /// The last solution on a way.
+    kept: Record,
 }
 
 /// Searches from a solution nearby: from the state in the workspace where that is it, and elsewhere from what a march from its end makes of it.
@@ -50,6 +55,10 @@ pub(crate) fn from_guess(
 ) -> Search {
     report.method = Method::MultipleShooting;
     if !holds_state_of(guess, problem, &workspace.record) {
+        if !problem.between.is_empty() {
+            // What its supports between bear is not in the guess.
+            return from_rest(problem, settings, workspace, report);
+        }
         let end = Section { pose: guess.pose, wrench: guess.wrench };
         march(workspace.simd, &problem.rod, Scheme::Element, &problem.loads, end, &mut workspace.record);
         report.sweeps += 1;
@@ -78,28 +87,119 @@ pub(crate) fn from_rest(
     found(problem, outcome, workspace)
 }
 
-/// Tries ways to lay the rod out, one after the other.
+/// Tries ways to lay the rod out, one after the other, and then ways to walk from rest, bent to either side of either axis first, until what is
+/// found is stable; else it is the first equilibrium that was found.
 fn from_laid_out(
     problem: &Problem,
     settings: &Settings,
     workspace: &mut Workspace,
     report: &mut SolveReport,
 ) -> Outcome {
-    let mut outcome = Outcome::Stalled;
-    for bend in BENDS {
-        lay_out(problem, bend, &mut workspace.record);
-        workspace.record.wrenches.fill(Wrench::ZERO);
-        outcome = newton(problem, settings, LONGEST_FROM_REST, workspace, report);
-        if outcome == Outcome::Converged {
-            break;
+    let mut unstable = None;
+    let mut enough = |outcome: Outcome, workspace: &mut Workspace| {
+        let found = outcome == Outcome::Converged;
+        let stable = found && morse_index(problem, workspace).unwrap_or(0) == 0;
+        if found && !stable {
+            unstable.get_or_insert_with(|| workspace.record.clone());
+        }
+        stable
+    };
+    for side in SIDES {
+        let record = &mut workspace.record;
+        lay_out(problem, side * arch(problem, side, record), record);
+        carry_what_bends(problem, record);
+        let outcome = newton(problem, settings, LONGEST_FROM_REST, workspace, report);
+        if enough(outcome, workspace) {
+            return outcome;
         }
     }
-    outcome
+    if problem.between.is_empty() {
+        for nudge in path::nudges(problem) {
+            let kept = &mut workspace.multiple.kept;
+            bend(problem, Vec3::ZERO, kept);
+            let moved = meet(&problem.start, &kept.poses[0]).compose(&kept.poses[0].inverse());
+            kept.poses.iter_mut().for_each(|pose| *pose = moved.compose(pose));
+            let search = path::from_rest(on_the_way, problem, settings, nudge, workspace, report);
+            if enough(search.outcome, workspace) {
+                return search.outcome;
+            }
+        }
+    }
+    let Some(record) = unstable else { return Outcome::Stalled };
+    workspace.record = record;
+    newton(problem, settings, LONGEST_FROM_AFAR, workspace, report)
 }
 
-/// By how much the rod is bent over its length beside its rest shape, rad.
-const BENDS: [Vec3; 4] =
-    [Vec3::ZERO, Vec3::new(0.3, 0.2, 0.1), Vec3::new(-0.4, 0.5, 0.0), Vec3::new(1.0, -1.0, 0.5)];
+/// Searches from the last state on the way that was a solution.
+fn on_the_way(
+    problem: &Problem,
+    settings: &Settings,
+    _: EndState,
+    _: Option<Inverse>,
+    workspace: &mut Workspace,
+    report: &mut SolveReport,
+) -> Search {
+    workspace.record.clone_from(&workspace.multiple.kept);
+    let outcome = newton(problem, settings, LONGEST_FROM_AFAR, workspace, report);
+    if outcome == Outcome::Converged {
+        workspace.multiple.kept.clone_from(&workspace.record);
+    }
+    found(problem, outcome, workspace)
+}
+
+/// The axes, in the rod's own, about which it is bent where it is longer than its ends are apart.
+const SIDES: [Vec3; 4] =
+    [Vec3::new(1.0, 0.1, 0.05), Vec3::new(-1.0, 0.1, 0.05), Vec3::new(0.1, 1.0, -0.05), Vec3::new(0.1, -1.0, 0.05)];
+/// How far the rod may be bent for that, rad, and in how many steps that is looked for.
+const MOST_BENT: f64 = 6.0;
+const STEPS_OF_BENDING: u32 = 12;
+
+/// By how much the rod has to be bent to one side for its ends to be as far apart as their supports, rad.
+fn arch(problem: &Problem, side: Vec3, record: &mut Record) -> f64 {
+    if !(problem.start.holds_position() && problem.end.holds_position()) {
+        return 0.0;
+    }
+    let apart = (problem.end.pose.position - problem.start.pose.position).norm();
+    let last = problem.rod.elements();
+    let mut miss = |bent: f64| {
+        bend(problem, side * bent, record);
+        ((record.poses[last].position - record.poses[0].position).norm() - apart).abs()
+    };
+    let mut best = (miss(0.0), 0.0);
+    for step in 1..=STEPS_OF_BENDING {
+        let bent = MOST_BENT * f64::from(step) / f64::from(STEPS_OF_BENDING);
+        let miss = miss(bent);
+        if miss < best.0 {
+            best = (miss, bent);
+        }
+    }
+    best.1
+}
+
+/// Gives the elements the moments that bend them as they are laid out, and what is known of their forces: the loads beyond, where the end is free to
+/// move, and elsewhere the tension that stretches them.
+fn carry_what_bends(problem: &Problem, record: &mut Record) {
+    let rod = &problem.rod;
+    let loose = !problem.end.fixed[3..].contains(&true) && problem.between.is_empty();
+    let mut force = Vec3::ZERO;
+    for e in (0..rod.elements()).rev() {
+        let far = &record.poses[e + 1];
+        let strain = record.poses[e].between(far).log() * (1.0 / rod.element_length(e));
+        let point = &rod.points(e)[0];
+        let mut elastic = strain - point.rest;
+        elastic.linear = Vec3::Z * elastic.linear.z.max(0.0);
+        let stress = point.law.stress(elastic);
+        force += problem.loads.world[e + 1].linear + far.rotation * problem.loads.body[e + 1].linear;
+        let linear = if loose {
+            far.rotation.transpose_mul(force)
+        } else if rod.kinematics() == Kinematics::Cosserat {
+            stress.linear
+        } else {
+            Vec3::ZERO
+        };
+        record.wrenches[e] = Wrench::new(stress.angular, linear);
+    }
+}
 
 /// What is left of a step after it was made.
 struct Left {
@@ -203,7 +303,7 @@ fn damped(
     report: &mut SolveReport,
 ) -> Option<Left> {
     let Workspace { record, simd, multiple, .. } = workspace;
-    let MultipleShooting { chain, trial, system, step, correction, difference } = multiple;
+    let MultipleShooting { chain, trial, system, step, correction, difference, .. } = multiple;
     let (size, turn) = chain.size(problem, units, step);
     let most = (LARGEST_TURN / turn).min(1.0);
     let mut damping: f64 = match last {
@@ -271,4 +371,23 @@ fn polish(problem: &Problem, units: &Scale, workspace: &mut Workspace, report: &
 fn subtract(difference: &mut Vec<Twelve>, a: &[Twelve], b: &[Twelve], times: f64) {
     difference.clear();
     difference.extend(a.iter().zip(b).map(|(a, b)| core::array::from_fn(|k| a[k] - times * b[k])));
+}
+
+/// By how much what is wrong after a part of the first step from the state in the workspace differs from what is foretold, over that part of what was
+/// wrong at first: for the test of the derivative.
+#[cfg(test)]
+pub(crate) fn misjudged(problem: &Problem, part: f64, longest: f64, workspace: &mut Workspace) -> f64 {
+    let units = units(problem, &workspace.record);
+    workspace.multiple.chain.cut(problem, &workspace.record, longest);
+    evaluate(problem, &units, workspace, &mut SolveReport::default());
+    let Workspace { record, simd, multiple, .. } = workspace;
+    let MultipleShooting { chain, trial, system, step, .. } = multiple;
+    chain.linearise(problem, *simd, &units, record, system).unwrap();
+    chain.step(system, step);
+    trial.stepped(chain, problem, &units, step, part);
+    trial.evaluate(problem, *simd, &units, record);
+    let (before, after) = (chain.wrong(), trial.wrong());
+    let size = before.iter().fold(0.0, |max: f64, x| max.max(x.abs()));
+    let off = before.iter().zip(after).map(|(before, after)| (after - (1.0 - part) * before).abs());
+    off.fold(0.0, f64::max) / (part * size)
 }

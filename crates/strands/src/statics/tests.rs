@@ -6,6 +6,7 @@ use crate::rod::{Law, Mesh, Order, Profile, RestShape, Rod, RodDescription, Stif
 
 mod fit;
 mod meshes;
+mod multiple_shooting;
 mod schemes;
 mod supports;
 
