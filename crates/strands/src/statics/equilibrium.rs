@@ -464,7 +464,6 @@ fn push_off(simd: SimdLevel, nodal: &mut Nodal, report: &mut SolveReport) -> Opt
 /// last bit.
 fn finish(problem: &Problem, record: &mut Record) {
     let rod = &problem.rod;
-    record.poses.iter_mut().for_each(|pose| pose.rotation = renormalised(pose.rotation));
     balance(problem, record);
     if rod.order() != Order::Second {
         return;
@@ -480,6 +479,7 @@ fn finish(problem: &Problem, record: &mut Record) {
 
 /// Carries the wrench at the end through all elements, so that force and moment balance to round-off at every node.
 pub(crate) fn balance(problem: &Problem, record: &mut Record) {
+    record.poses.iter_mut().for_each(|pose| pose.rotation = renormalised(pose.rotation));
     // What the end leaves free bears its loads to the last bit.
     let last = problem.rod.elements() - 1;
     let end = EndState::from_guess(problem, &Guess::new(record.poses[last + 1], record.wrenches[last]));
