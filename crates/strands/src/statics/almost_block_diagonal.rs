@@ -153,7 +153,8 @@ impl Kernel for Eliminate<'_> {
         let Block { rows, factors, chosen } = self.block;
         for k in 0..JOINT {
             let size = |row: &Row| entry(row, k).abs();
-            let best = (k..STACK).fold(k, |best, i| if size(&rows[i]) > size(&rows[best]) { i } else { best });
+            let best =
+                (k..STACK).fold(k, |best, i| if size(&rows[i]) > size(&rows[best]) { i } else { best });
             let pivot = entry(&rows[best], k);
             if !(pivot.abs() > 0.0 && pivot.is_finite()) {
                 return None;

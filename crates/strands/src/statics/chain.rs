@@ -72,8 +72,11 @@ impl Chain {
             };
             if held.next_if_eq(&node).is_some() || next && long > 0.0 {
                 let after = if node < n { carried_before(record, node) } else { Wrench::ZERO };
-                let state =
-                    EndState::of(&Node::of(problem, node), &record.poses[node], record.wrenches[node - 1] - after);
+                let state = EndState::of(
+                    &Node::of(problem, node),
+                    &record.poses[node],
+                    record.wrenches[node - 1] - after,
+                );
                 self.joints.push(Joint { node, state, beyond: after });
                 (growth, from) = (0.0, nodes[node]);
             }
@@ -85,7 +88,8 @@ impl Chain {
         let mut first = 0;
         self.joints.iter().any(|joint| {
             let elements = core::mem::replace(&mut first, joint.node)..joint.node;
-            elements.len() > 1 && elements.map(|e| growth_along(problem, record, e)).sum::<f64>() > MOST_GROWTH
+            elements.len() > 1
+                && elements.map(|e| growth_along(problem, record, e)).sum::<f64>() > MOST_GROWTH
         })
     }
 
@@ -106,7 +110,11 @@ impl Chain {
             let loads = &problem.loads;
             self.arrivals[i] = march_along(level, rod, Scheme::Element, loads, elements, far, record);
         }
-        let forces = self.joints.iter().map(|joint| joint.beyond.linear.norm()).chain([self.arrivals[0].wrench.linear.norm()]);
+        let forces = self
+            .joints
+            .iter()
+            .map(|joint| joint.beyond.linear.norm())
+            .chain([self.arrivals[0].wrench.linear.norm()]);
         let carried = forces.fold(1.0, |max: f64, force| max.max(force / scale.force));
         self.residual = 0.0;
         let (rows, fixed) = (residual(problem, &self.arrivals[0]), problem.start.fixed);
@@ -318,8 +326,11 @@ fn beyond_columns(units: &Scale) -> Columns {
 }
 
 fn rows_of(frame: Vec6, wrench: Wrench, units: &Scale) -> Twelve {
-    let (shift, moment, force) =
-        (frame.linear * (1.0 / units.length), wrench.angular * (1.0 / units.moment), wrench.linear * (1.0 / units.force));
+    let (shift, moment, force) = (
+        frame.linear * (1.0 / units.length),
+        wrench.angular * (1.0 / units.moment),
+        wrench.linear * (1.0 / units.force),
+    );
     let (frame, wrench) = (Vec6::new(frame.angular, shift).to_array(), Vec6::new(moment, force).to_array());
     core::array::from_fn(|k| if k < 6 { frame[k] } else { wrench[k - 6] })
 }

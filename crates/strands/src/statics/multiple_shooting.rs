@@ -8,9 +8,11 @@
 //! with the same derivative, so that neither the units of the equations nor their growth along the segments matter.
 
 use super::almost_block_diagonal::{AlmostBlockDiagonal, Twelve};
-use super::chain::{Chain, units};
-use super::equilibrium::{Mild, balance, bend, by_degrees, found, holds_state_of, lay_out, put_between_supports};
 use super::boundary::{EndState, meet};
+use super::chain::{Chain, units};
+use super::equilibrium::{
+    Mild, balance, bend, by_degrees, found, holds_state_of, lay_out, put_between_supports,
+};
 use super::march::{Record, Section, march};
 use super::path;
 use super::problem::Problem;
@@ -24,6 +26,8 @@ use crate::rod::{Kinematics, Scale};
 const LARGEST_TURN: f64 = 1.0;
 /// A step that has to be damped below this has failed.
 const LEAST_DAMPING: f64 = 1.0 / 4096.0;
+/// A step of which the size is round-off where the tension of a thread hangs on the last digits of its length.
+const TINY: f64 = 1e-7;
 /// A full step that leaves less than this of itself to correct keeps its derivative for the next.
 const WORTHWHILE: f64 = 0.1;
 /// The longest segment, over the rod: where the state is far from a solution, frames in between lead to it.
@@ -148,8 +152,12 @@ fn on_the_way(
 }
 
 /// The axes, in the rod's own, about which it is bent where it is longer than its ends are apart.
-const SIDES: [Vec3; 4] =
-    [Vec3::new(1.0, 0.1, 0.05), Vec3::new(-1.0, 0.1, 0.05), Vec3::new(0.1, 1.0, -0.05), Vec3::new(0.1, -1.0, 0.05)];
+const SIDES: [Vec3; 4] = [
+    Vec3::new(1.0, 0.1, 0.05),
+    Vec3::new(-1.0, 0.1, 0.05),
+    Vec3::new(0.1, 1.0, -0.05),
+    Vec3::new(0.1, -1.0, 0.05),
+];
 /// How far the rod may be bent for that, rad, and in how many steps that is looked for.
 const MOST_BENT: f64 = 6.0;
 const STEPS_OF_BENDING: u32 = 12;
@@ -269,8 +277,13 @@ fn newton(
             }
         }
     }
-    if !(report.residual <= settings.tolerance) {
+    if larger(report.residual, settings.tolerance) != settings.tolerance {
         return Outcome::Stalled;
+    }
+    if last.is_some_and(|left: Left| left.damping >= 1.0) {
+        let multiple = &mut workspace.multiple;
+        core::mem::swap(&mut multiple.step, &mut multiple.correction);
+        reuse = true;
     }
     if reuse {
         polish(problem, &units, workspace, report);
@@ -332,14 +345,16 @@ fn damped(
             let off = trial.size(problem, units, difference).0;
             next = (0.5 * size * damping * damping / off).min(most);
         }
-        if !(theta < 1.0) {
+        // So near to the solution the corrections are round-off, and only the residual still tells.
+        let nearer = size <= TINY && trial.residual <= 0.5 * chain.residual;
+        if !(theta < 1.0 || nearer) {
             if reused {
                 return None;
             }
             report.line_search_cuts += 1;
             damping = next.min(0.5 * damping);
             raised = true;
-        } else if reused && theta > 0.5 {
+        } else if reused && theta > 0.5 && !nearer {
             return None;
         } else if next >= 4.0 * damping && !raised {
             // It was damped too much.

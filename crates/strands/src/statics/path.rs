@@ -118,8 +118,7 @@ fn walk(
         let next = f64::min(at + step, 1.0);
         set(&mut family, problem, from, change, next);
         let before = report.iterations;
-        let mut tried =
-            by(&family, &on_the_way, reached.moved(&family), search.inverse, workspace, report);
+        let mut tried = by(&family, &on_the_way, reached.moved(&family), search.inverse, workspace, report);
         report.path_steps += 1;
         if tried.outcome == Outcome::Converged {
             // A step that lost stability has landed on another branch, or passed a place where the rod would snap.

@@ -11,7 +11,12 @@ fn by(method: Method) -> Settings {
     Settings { method, tolerance: 1e-12, restart_from_rest: false, ..Settings::default() }
 }
 
-fn found(problem: &Problem, settings: &Settings, guess: Option<&Guess>, workspace: &mut Workspace) -> Solution {
+fn found(
+    problem: &Problem,
+    settings: &Settings,
+    guess: Option<&Guess>,
+    workspace: &mut Workspace,
+) -> Solution {
     match solve(problem, settings, guess, workspace) {
         Ok(solution) => solution,
         Err(failure) => panic!("{}: {failure}: {:?}", settings.method.name(), failure.nearest.report),
@@ -26,13 +31,18 @@ fn apart(problem: &Problem, a: &Solution, b: &Solution) -> f64 {
         gap.angular.max_abs().max(gap.linear.max_abs() / length)
     });
     let reactions = |of: &Solution, pick: &dyn Fn(&Reaction) -> Vec3| -> Vec<Vec3> {
-        of.reactions.iter().map(pick).chain(of.stress.iter().map(|stress| pick(&as_reaction(stress)))).collect()
+        of.reactions
+            .iter()
+            .map(pick)
+            .chain(of.stress.iter().map(|stress| pick(&as_reaction(stress))))
+            .collect()
     };
-    let wrenches = [&(|r: &Reaction| r.force) as &dyn Fn(&Reaction) -> Vec3, &|r: &Reaction| r.moment].map(|pick| {
-        let (a, b) = (reactions(a, pick), reactions(b, pick));
-        let size = a.iter().fold(f64::MIN_POSITIVE, |max, v| max.max(v.norm()));
-        a.iter().zip(&b).map(|(a, b)| (*a - *b).norm() / size).fold(0.0, f64::max)
-    });
+    let wrenches =
+        [&(|r: &Reaction| r.force) as &dyn Fn(&Reaction) -> Vec3, &|r: &Reaction| r.moment].map(|pick| {
+            let (a, b) = (reactions(a, pick), reactions(b, pick));
+            let size = a.iter().fold(f64::MIN_POSITIVE, |max, v| max.max(v.norm()));
+            a.iter().zip(&b).map(|(a, b)| (*a - *b).norm() / size).fold(0.0, f64::max)
+        });
     frames.fold(0.0, f64::max).max(wrenches[0]).max(wrenches[1])
 }
 
@@ -104,7 +114,8 @@ fn a_free_end_is_found_as_by_the_sweep_and_by_shooting() {
                     let mut problem = loaded(kinematics, 60, order, frame);
                     problem.rod = rod(kinematics, rest.clone(), 60, order);
                     if frame == Frame::World {
-                        problem.loads = problem.loads.clone().with_gravity(&problem.rod, Vec3::new(0.0, 1.0, -9.81));
+                        problem.loads =
+                            problem.loads.clone().with_gravity(&problem.rod, Vec3::new(0.0, 1.0, -9.81));
                     }
                     let what = format!("{kinematics:?} {order:?} {frame:?}");
                     let mut workspace = Workspace::default();
@@ -126,7 +137,13 @@ fn a_free_end_is_found_as_by_the_sweep_and_by_shooting() {
 }
 
 /// A rod whose tip is held, in one of many ways, near where a load takes it.
-fn held(random: &mut Random, kinematics: Kinematics, order: Order, fixed: [bool; 6], frame: Frame) -> Problem {
+fn held(
+    random: &mut Random,
+    kinematics: Kinematics,
+    order: Order,
+    fixed: [bool; 6],
+    frame: Frame,
+) -> Problem {
     let mut problem = loaded(kinematics, 60, order, frame);
     problem.loads = problem.loads.clone().with_gravity(&problem.rod, random.vector() * 5.0);
     let hanging = tip(&solved(&problem, &Settings { tolerance: 1e-11, ..Settings::default() }));
@@ -146,17 +163,23 @@ fn rods_held_in_any_way_are_found_as_by_shooting() {
                     let mut problem = held(&mut random, kinematics, order, fixed, frame);
                     tries += 1;
                     // Some of these are hard, and it is enough that most are found.
-                    let Ok(first) = solve(&problem, &by(Method::Auto), None, &mut Workspace::default()) else {
+                    let Ok(first) = solve(&problem, &by(Method::Auto), None, &mut Workspace::default())
+                    else {
                         continue;
                     };
                     problem.end.pose = problem.end.pose.compose(&random.motion(0.05, 0.01));
                     let shooting = Settings { max_halvings: 0, ..by(Method::Shooting) };
-                    let Ok(shot) = solve(&problem, &shooting, Some(&first.guess), &mut Workspace::default()) else {
+                    let Ok(shot) = solve(&problem, &shooting, Some(&first.guess), &mut Workspace::default())
+                    else {
                         continue;
                     };
                     both += 1;
-                    let many =
-                        found(&problem, &by(Method::MultipleShooting), Some(&first.guess), &mut Workspace::default());
+                    let many = found(
+                        &problem,
+                        &by(Method::MultipleShooting),
+                        Some(&first.guess),
+                        &mut Workspace::default(),
+                    );
                     let gap = apart(&problem, &shot, &many);
                     assert!(gap < 1e-10, "{what}: {gap:e}, {:?}, {:?}", shot.report, many.report);
                     assert!(many.imbalance(&problem) < 1e-12, "{what}: {:e}", many.imbalance(&problem));
@@ -185,7 +208,10 @@ fn rods_held_between_and_by_a_hand_are_found_as_all_at_once() {
                     problem.between.push((node, Support::of(fixed, pose)));
                 }
                 let axes = [random.vector(), random.vector()];
-                problem.between.push((50, Support::clamped(free.poses[50]).sliding_along(axes[0]).turning_about(axes[1])));
+                problem.between.push((
+                    50,
+                    Support::clamped(free.poses[50]).sliding_along(axes[0]).turning_about(axes[1]),
+                ));
                 match number % 3 {
                     0 => problem.end = Support::free(problem.end.pose),
                     1 => {
@@ -212,7 +238,8 @@ fn rods_held_between_and_by_a_hand_are_found_as_all_at_once() {
                     for (_, support) in &mut problem.between {
                         support.pose = support.pose.compose(&random.motion(0.05, 0.2 * shift));
                     }
-                    let all = found(&problem, &by(Method::Equilibrium), Some(&guesses[0]), &mut workspaces[0]);
+                    let all =
+                        found(&problem, &by(Method::Equilibrium), Some(&guesses[0]), &mut workspaces[0]);
                     let many = found(&problem, &settings, Some(&guesses[1]), &mut workspaces[1]);
                     let gap = apart(&problem, &all, &many);
                     assert!(gap < 1e-10, "{what}: {gap:e}, {:?}, {:?}", all.report, many.report);
@@ -316,9 +343,13 @@ fn taut_threads_are_found_from_a_solution_nearby_and_from_rest_where_shooting_is
                 if ratio > 100.0 { (1e-9, (&many, &mut workspace)) } else { (1e-12, (&turned, &mut beside)) };
             let at_once = Settings { tolerance, ..by(Method::Equilibrium) };
             let all = found(&problem, &at_once, Some(&from.0.guess), from.1);
-            // What an inextensible thread has to spare is of the order of `ℓ`, and its tension follows from that: so the round-off of the places of
-            // its nodes, over `ℓ` and once more over the square of its angle, is in it.
-            let within = if kinematics == Kinematics::Kirchhoff && ratio > 100.0 { 1e-8 } else { 1e-10 };
+            // Of a thousand lengths `ℓ` each of hundreds of joints may be off by the tolerance, 1e-11 of the length, and what the thread stretches by is a
+            // tenth of it. What an inextensible one has to spare is of the order of `ℓ`, and its tension follows from that.
+            let within = match kinematics {
+                _ if ratio <= 100.0 => 1e-10,
+                Kinematics::Cosserat => 1e-9,
+                Kinematics::Kirchhoff => 1e-8,
+            };
             let gap = apart(&problem, &all, &many);
             assert!(gap < within, "{what}: {gap:e}");
             assert!(many.imbalance(&problem) < 1e-12, "{what}: {:e}", many.imbalance(&problem));
@@ -327,7 +358,6 @@ fn taut_threads_are_found_from_a_solution_nearby_and_from_rest_where_shooting_is
             let shot = solve(&problem, &shooting, Some(&turned.guess), &mut Workspace::default());
             assert!(shot.is_err(), "{what}: shooting gets there too");
             let cold = found(&problem, &settings, None, &mut Workspace::default());
-            println!("{what}: {gap:e}, cold {:e}, {} {} {} {}", apart(&problem, &many, &cold), many.report.iterations, all.report.iterations, cold.report.iterations, cold.report.path_steps);
             let gap = apart(&problem, &many, &cold);
             assert!(gap < within, "{what}: cold {gap:e}");
         }
@@ -340,7 +370,9 @@ fn other_units_change_nothing_in_the_search() {
         let mut description = description(Kinematics::Cosserat, RestShape::default());
         description.length *= length;
         description.base.position = description.base.position * length;
-        let Profile::Given { law: Law::Diagonal(stiffness), .. } = &mut description.profile else { unreachable!() };
+        let Profile::Given { law: Law::Diagonal(stiffness), .. } = &mut description.profile else {
+            unreachable!()
+        };
         let bending = force * length * length;
         stiffness.bending = stiffness.bending.map(|x| x * bending);
         stiffness.torsion *= bending;
@@ -371,7 +403,8 @@ fn work_grows_linearly_with_the_length_over_which_the_thread_bends() {
     let mut before = None;
     for ratio in [60.0, 120.0, 240.0, 480.0] {
         let (mut problem, mut workspace, first) = taut(Kinematics::Cosserat, Order::Second, ratio);
-        problem.start.pose = problem.start.pose.compose(&Pose::exp(Vec6::new(Vec3::new(0.1, 0.0, 0.0), Vec3::ZERO)));
+        problem.start.pose =
+            problem.start.pose.compose(&Pose::exp(Vec6::new(Vec3::new(0.1, 0.0, 0.0), Vec3::ZERO)));
         let eliminated = workspace.multiple.system.eliminated;
         let settings = Settings { tolerance: 1e-11, ..by(Method::MultipleShooting) };
         let turned = found(&problem, &settings, Some(&first.guess), &mut workspace);
