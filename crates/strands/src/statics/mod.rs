@@ -99,7 +99,8 @@ pub fn follow(
 }
 
 /// Chooses the way: two sweeps where they suffice; from a guess a search by shooting where that keeps its digits, and all frames at once where
-/// not; and from rest.
+/// not; and from rest. Multiple shooting is taken only where it is asked for: from a guess it would do where shooting has lost its digits, in a
+/// quarter of the time that all frames at once take.
 fn find(
     problem: &Problem,
     settings: &Settings,
