@@ -61,6 +61,9 @@ pub enum MethodName {
     Sweep,
     /// A search for what is unknown at the end
     Shooting,
+    /// The same at several places along the rod at once
+    #[value(name = "multiple_shooting", alias = "multiple-shooting")]
+    MultipleShooting,
     /// All frames at once, moving to where the rod rests
     Equilibrium,
 }

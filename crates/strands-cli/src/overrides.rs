@@ -58,6 +58,7 @@ fn changes(overrides: &Overrides) -> Result<Vec<Change>, String> {
             MethodName::Auto => "auto",
             MethodName::Sweep => "sweep",
             MethodName::Shooting => "shooting",
+            MethodName::MultipleShooting => "multiple_shooting",
             MethodName::Equilibrium => "equilibrium",
         };
         changes.push(solver("method", name.into()));

@@ -74,7 +74,7 @@ pub(crate) fn later(word: &str) -> Option<&'static str> {
         "obstacles" => "remove it: nothing touches a rod so far",
         "motion" => "remove it: supports stand still so far; give `position` and `orientation`",
         "initial" => "remove it: the search starts from the rest shape",
-        "multiple_shooting" => "use \"auto\", \"sweep\", \"shooting\" or \"equilibrium\"",
+        "continuation" => "use \"auto\", \"sweep\", \"shooting\", \"multiple_shooting\" or \"equilibrium\"",
         _ => return None,
     })
 }

@@ -204,6 +204,7 @@ fn solver() -> impl Strategy<Value = SolverFile> {
         MethodName::Auto,
         MethodName::Sweep,
         MethodName::Shooting,
+        MethodName::MultipleShooting,
         MethodName::Equilibrium,
     ]);
     let jacobian = vec![Variational, VariationalLanes, FiniteDifferences, FiniteDifferenceLanes];

@@ -89,6 +89,7 @@ pub(super) fn solver(document: &Document, file: &SceneFile) -> Result<Settings, 
             MethodName::Auto => Method::Auto,
             MethodName::Sweep => Method::Sweep,
             MethodName::Shooting => Method::Shooting,
+            MethodName::MultipleShooting => Method::MultipleShooting,
             MethodName::Equilibrium => Method::Equilibrium,
         }),
         scheme: scheme.map_or(default.scheme, |scheme| match scheme {

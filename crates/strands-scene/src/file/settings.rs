@@ -37,6 +37,8 @@ pub enum MethodName {
     Sweep,
     /// A search for what is unknown at the end.
     Shooting,
+    /// The same at several places along the rod at once: for long and taut rods too, and for equilibria that are not stable.
+    MultipleShooting,
     /// All frames at once, moving to where the rod rests. Finds stable equilibria only; needs order 2 or 4.
     Equilibrium,
 }

@@ -14,11 +14,46 @@ use super::variation::{Columns, Variation, turned_by};
 use crate::math::{Mat3, Mat6, Pose, Quat, Vec3, Vec6, Wrench, tangent, tangent_inverse};
 use crate::rod::Scale;
 
-/// The end of a rod, with its reaction: force in world axes, moment by the turns of the fixed frame.
+/// The end of a rod, or a node between, with its reaction: force in world axes, moment by the turns of the fixed frame.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct EndState {
     pub pose: Pose,
     reaction: Wrench,
+}
+
+/// A node: what holds it, and the loads on it.
+#[derive(Clone, Copy)]
+pub(crate) struct Node<'a> {
+    pub support: &'a Support,
+    /// The dead wrench, world axes.
+    world: Wrench,
+    /// The follower wrench, body axes.
+    body: Wrench,
+}
+
+/// How a node is held that nothing holds.
+const FREE: &Support = &Support {
+    fixed: [false; 6],
+    pose: Pose::IDENTITY,
+    turn_axes: Mat3::IDENTITY,
+    shift_axes: Mat3::IDENTITY,
+    grip: None,
+};
+
+impl<'a> Node<'a> {
+    /// The end of a rod.
+    pub fn end(problem: &'a Problem) -> Self {
+        Self::new(problem, problem.rod.elements(), &problem.end)
+    }
+
+    /// A node between the ends, or the end.
+    pub fn of(problem: &'a Problem, node: usize) -> Self {
+        Self::new(problem, node, problem.support(node).unwrap_or(FREE))
+    }
+
+    fn new(problem: &Problem, node: usize, support: &'a Support) -> Self {
+        Self { support, world: problem.loads.world[node], body: problem.loads.body[node] }
+    }
 }
 
 /// Which of an end's turns are fixed.
@@ -60,11 +95,16 @@ fn so3_tangent_inverse(phi: Vec3) -> Mat3 {
 impl EndState {
     /// The end as a guess has it, moved so that what is fixed is met.
     pub fn from_guess(problem: &Problem, guess: &Guess) -> Self {
-        let end = &problem.end;
-        let pose = meet(end, &guess.pose);
+        Self::of(&Node::end(problem), &guess.pose, guess.wrench)
+    }
+
+    /// A node moved so that what is fixed is met, where the rod before it carries so much more than the rod beyond it.
+    pub fn of(node: &Node, pose: &Pose, more: Wrench) -> Self {
+        let end = node.support;
+        let pose = meet(end, pose);
         let mut state = Self { pose, reaction: Wrench::ZERO };
-        // What the guess's wrench has beyond the loads is the reaction.
-        let beyond = guess.wrench - state.section(problem).wrench;
+        // What there is beyond the loads is the reaction.
+        let beyond = more - state.wrench(node);
         let force = pose.rotation * beyond.linear;
         let moment = match end.turns() {
             Turns::Free => Vec3::ZERO,
@@ -87,12 +127,14 @@ impl EndState {
 
     /// The frame and internal wrench at the end: loads, reaction and grip together.
     pub fn section(&self, problem: &Problem) -> Section {
-        let end = &problem.end;
-        let node = problem.rod.elements();
-        let world = self.world_wrench(problem);
-        let mut wrench = turned(&self.pose, world) + problem.loads.body[node];
-        wrench.angular += self.reaction_moment(end);
-        Section { pose: self.pose, wrench }
+        Section { pose: self.pose, wrench: self.wrench(&Node::end(problem)) }
+    }
+
+    /// What acts on the node, in its frame: loads, reaction and grip together.
+    pub fn wrench(&self, node: &Node) -> Wrench {
+        let mut wrench = turned(&self.pose, self.world_wrench(node)) + node.body;
+        wrench.angular += self.reaction_moment(node.support);
+        wrench
     }
 
     /// The moment of the reaction, in the end's frame.
@@ -105,11 +147,11 @@ impl EndState {
         }
     }
 
-    /// What acts on the end in world axes: dead loads, the reaction's force, the grip.
-    fn world_wrench(&self, problem: &Problem) -> Wrench {
-        let mut world = problem.loads.world[problem.rod.elements()];
-        world.linear += problem.end.shift_axes * self.reaction.linear;
-        if let Some(grip) = &problem.end.grip {
+    /// What acts on the node in world axes: dead loads, the reaction's force, the grip.
+    fn world_wrench(&self, node: &Node) -> Wrench {
+        let mut world = node.world;
+        world.linear += node.support.shift_axes * self.reaction.linear;
+        if let Some(grip) = &node.support.grip {
             world += grip.wrench(&self.pose);
         }
         world
@@ -117,12 +159,17 @@ impl EndState {
 
     /// How the section at the end changes with each unknown.
     pub fn columns(&self, problem: &Problem) -> Columns {
-        let end = &problem.end;
+        self.columns_at(&Node::end(problem))
+    }
+
+    /// How a node's frame and what acts on it change with each unknown.
+    pub fn columns_at(&self, node: &Node) -> Columns {
+        let end = node.support;
         let rotation = self.pose.rotation;
         let turns = end.turns();
         let phi = if turns == Turns::Mixed { end.turn_of(&self.pose) } else { Vec3::ZERO };
         let (j, j_inverse) = (so3_tangent(phi), so3_tangent_inverse(phi));
-        let body_axes = turned(&self.pose, self.world_wrench(problem));
+        let body_axes = turned(&self.pose, self.world_wrench(node));
         let grip = end.grip.as_ref().map(|grip| grip.stiffness(&self.pose));
         core::array::from_fn(|k| {
             let axis = end.axis(k);
@@ -162,7 +209,11 @@ impl EndState {
 
     /// The end after a step in the unknowns.
     pub fn stepped(&self, problem: &Problem, step: &[f64; 6]) -> Self {
-        let end = &problem.end;
+        self.stepped_at(&problem.end, step)
+    }
+
+    /// A node after a step in the unknowns.
+    pub fn stepped_at(&self, end: &Support, step: &[f64; 6]) -> Self {
         let mut next = *self;
         let mut turn = Vec3::ZERO;
         for i in 0..3 {

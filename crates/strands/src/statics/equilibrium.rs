@@ -69,12 +69,13 @@ pub(crate) fn from_rest(
     workspace: &mut Workspace,
     report: &mut SolveReport,
 ) -> Search {
-    let mild = Mild::new(problem);
-    let outcome = if mild.is_it() {
+    let laid_out = |problem: &Problem, workspace: &mut Workspace, report: &mut SolveReport| {
         laid_out(problem, settings, workspace, report)
-    } else {
-        by_degrees(problem, &mild, settings, workspace, report)
     };
+    let on = |problem: &Problem, workspace: &mut Workspace, report: &mut SolveReport| {
+        from_state(problem, settings, workspace, report)
+    };
+    let outcome = by_degrees(problem, &Mild::new(problem), laid_out, on, workspace, report);
     found(problem, outcome, workspace)
 }
 
@@ -98,7 +99,14 @@ fn laid_out(
 }
 
 /// Lays the rod out between its supports, bent from its rest shape by a curvature and twist (1/m) that may change along it (`s` over the length).
+/// It carries nothing.
 pub(crate) fn lay_out(problem: &Problem, bend: impl Fn(f64) -> Vec3, record: &mut Record) {
+    bend_from_rest(problem, bend, record);
+    put_between_supports(problem, &mut record.poses);
+}
+
+/// The same without regard to the supports.
+pub(crate) fn bend_from_rest(problem: &Problem, bend: impl Fn(f64) -> Vec3, record: &mut Record) {
     let rod = &problem.rod;
     let nodes = rod.mesh().nodes();
     record.fit(rod.elements());
@@ -111,11 +119,10 @@ pub(crate) fn lay_out(problem: &Problem, bend: impl Fn(f64) -> Vec3, record: &mu
         let relative = Pose::exp(element::exponent(rod.order(), rod.element_length(e), &bent));
         record.poses[e + 1] = record.poses[e].compose(&relative);
     }
-    put_between_supports(problem, &mut record.poses);
 }
 
 /// A milder problem, from which to get to a hard one by degrees.
-struct Mild {
+pub(crate) struct Mild {
     /// The part of the loads that acts.
     load: f64,
     /// The stretches between places that are held.
@@ -158,7 +165,7 @@ const HARD_SPARE: f64 = 0.05;
 const LEAST_SPARE: f64 = 1e-9;
 
 impl Mild {
-    fn new(problem: &Problem) -> Self {
+    pub fn new(problem: &Problem) -> Self {
         let load = (HARD_LOAD / problem.load_size()).min(1.0);
         Self { load, stretches: stretches(problem) }
     }
@@ -196,24 +203,28 @@ impl Mild {
     }
 }
 
-/// Walks from the milder problem to the hard one, each step from the state that the one before has left.
-fn by_degrees(
+/// Walks from the milder problem, searched for from the rod laid out, to the hard one, each step from the state that the one before has left.
+pub(crate) fn by_degrees(
     problem: &Problem,
     mild: &Mild,
-    settings: &Settings,
+    laid_out: impl Fn(&Problem, &mut Workspace, &mut SolveReport) -> Outcome,
+    on: impl Fn(&Problem, &mut Workspace, &mut SolveReport) -> Outcome,
     workspace: &mut Workspace,
     report: &mut SolveReport,
 ) -> Outcome {
+    if mild.is_it() {
+        return laid_out(problem, workspace, report);
+    }
     let mut family = problem.clone();
     mild.set(problem, 0.0, &mut family);
-    let mut outcome = laid_out(&family, settings, workspace, report);
+    let mut outcome = laid_out(&family, workspace, report);
     let (mut at, mut step) = (0.0, 0.25);
     let mut reached = workspace.record.clone();
     while outcome == Outcome::Converged && at < 1.0 {
         let next = f64::min(at + step, 1.0);
         mild.set(problem, next, &mut family);
         report.path_steps += 1;
-        outcome = from_state(&family, settings, workspace, report);
+        outcome = on(&family, workspace, report);
         if outcome == Outcome::Converged {
             (at, step) = (next, 1.5 * step);
             reached.clone_from(&workspace.record);
@@ -324,7 +335,7 @@ fn note(distance: Option<Distance>, report: &mut SolveReport) -> Option<Distance
 }
 
 /// Whether a record is of the solution that a guess comes from.
-fn holds_state_of(guess: &Guess, problem: &Problem, record: &Record) -> bool {
+pub(crate) fn holds_state_of(guess: &Guess, problem: &Problem, record: &Record) -> bool {
     let n = problem.rod.elements();
     if record.wrenches.len() != n {
         return false;
@@ -340,7 +351,7 @@ fn holds_state_of(guess: &Guess, problem: &Problem, record: &Record) -> bool {
 
 /// Puts a chain of frames between the supports: the best held of these is met by moving the whole, and what the others miss is spread evenly
 /// over the rod between.
-fn put_between_supports(problem: &Problem, poses: &mut [Pose]) {
+pub(crate) fn put_between_supports(problem: &Problem, poses: &mut [Pose]) {
     let fixed = |(_, end): &(usize, &Support)| end.fixed.iter().filter(|fixed| **fixed).count();
     let anchor = problem.supports().fold(None, |best, hold| match best {
         Some(best) if fixed(&best) >= fixed(&hold) => Some(best),
@@ -491,16 +502,31 @@ fn push_off(simd: SimdLevel, nodal: &mut Nodal, report: &mut SolveReport) -> Opt
     holds(enough).then_some(enough)
 }
 
-/// Carries the wrench at the end through all elements, so that force and moment balance to round-off at every node, and gives the elements the
-/// strains that belong to it, so that what is not free is as it must be to the last bit.
+/// Balances the nodes, and gives the elements the strains that belong to what they carry, so that what is not free is as it must be to the
+/// last bit.
 pub(crate) fn finish(problem: &Problem, record: &mut Record) {
     let rod = &problem.rod;
+    balance(problem, record);
+    if rod.order() != Order::Second {
+        return;
+    }
+    // The strains of a general element are solved for already.
+    for (e, point) in rod.diagonal_points().into_iter().flatten().enumerate() {
+        let x = record.poses[e].between(&record.poses[e + 1]).log();
+        let strain = (point.rest + point.compliance.scale(element::mean_wrench(x, record.wrenches[e])))
+            * (1.0 / rod.element_length(e));
+        record.strains[e] = [strain; 2];
+    }
+}
+
+/// Carries the wrench at the end through all elements, so that force and moment balance to round-off at every node.
+pub(crate) fn balance(problem: &Problem, record: &mut Record) {
     record.poses.iter_mut().for_each(|pose| pose.rotation = renormalised(pose.rotation));
     // What the end leaves free bears its loads to the last bit.
-    let last = rod.elements() - 1;
+    let last = problem.rod.elements() - 1;
     let end = EndState::from_guess(problem, &Guess::new(record.poses[last + 1], record.wrenches[last]));
     record.wrenches[last] = end.section(problem).wrench;
-    for e in (0..rod.elements() - 1).rev() {
+    for e in (0..last).rev() {
         let node = e + 1;
         let pose = &record.poses[node];
         let beyond = pose.between(&record.poses[node + 1]).carry_wrench(record.wrenches[node]);
@@ -515,16 +541,6 @@ pub(crate) fn finish(problem: &Problem, record: &mut Record) {
             balanced += turned(pose, borne(support, pose, rest));
         }
         record.wrenches[e] = balanced;
-    }
-    if rod.order() != Order::Second {
-        return;
-    }
-    // The strains of a general element are solved for already.
-    for (e, point) in rod.diagonal_points().into_iter().flatten().enumerate() {
-        let x = record.poses[e].between(&record.poses[e + 1]).log();
-        let strain = (point.rest + point.compliance.scale(element::mean_wrench(x, record.wrenches[e])))
-            * (1.0 / rod.element_length(e));
-        record.strains[e] = [strain; 2];
     }
 }
 

@@ -26,6 +26,9 @@ pub(crate) fn unfit(problem: &Problem, settings: &Settings) -> Option<FailureRea
     if shoots && !problem.between.is_empty() {
         return Some(FailureReason::HeldBetween);
     }
+    if settings.scheme == Scheme::Multistep && settings.method == Method::MultipleShooting {
+        return Some(FailureReason::SchemeOfSegments);
+    }
     // An element of order 4 has two points, and the multistep scheme takes one strain an element.
     if settings.scheme == Scheme::Multistep && problem.rod.order() == Order::Fourth {
         return Some(FailureReason::SchemeOfOrder { order: Order::Fourth.as_number() });

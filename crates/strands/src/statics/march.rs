@@ -15,6 +15,7 @@ use crate::rod::{Order, Rod};
 
 use super::solution::Scheme;
 use core::marker::PhantomData;
+use core::ops::Range;
 
 /// A frame and the internal wrench in it.
 #[derive(Clone, Copy, Debug)]
@@ -100,11 +101,24 @@ pub(crate) fn march(
     end: Section,
     record: &mut Record,
 ) -> Section {
+    march_along(level, rod, scheme, loads, 0..rod.elements(), end, record)
+}
+
+/// The same over some of the elements: from the far node of the last of them to the near node of the first, before that one's loads.
+pub(crate) fn march_along(
+    level: SimdLevel,
+    rod: &Rod,
+    scheme: Scheme,
+    loads: &NodalLoads,
+    elements: Range<usize>,
+    end: Section,
+    record: &mut Record,
+) -> Section {
     record.fit(rod.elements());
     let Some(points) = rod.diagonal_points() else {
-        return general(rod, scheme, loads, end, record);
+        return general(rod, scheme, loads, elements, end, record);
     };
-    let way = Way { rod, points, scheme, loads };
+    let way = Way { rod, points, scheme, loads, last: elements.end, first: elements.start };
     #[cfg(target_arch = "x86_64")]
     if level != SimdLevel::Baseline
         && let Some(start) = with_avx2(Single::<Packed> { way, end, record, vector: PhantomData })
@@ -122,7 +136,7 @@ pub(crate) fn march_lanes<R: Real>(
     loads: &NodalLoads,
     end: Section<Vec3<R>>,
 ) -> Option<Section<Vec3<R>>> {
-    let way = Way { rod, points: rod.diagonal_points()?, scheme, loads };
+    let way = Way { rod, points: rod.diagonal_points()?, scheme, loads, last: rod.elements(), first: 0 };
     Some(dispatch(level, InLanes { way, end }))
 }
 
@@ -160,13 +174,16 @@ impl<V: Vector> Kernel for InLanes<'_, V> {
     }
 }
 
-/// A rod with a diagonal law and its loads.
+/// Elements of a rod with a diagonal law, and its loads.
 #[derive(Clone, Copy)]
 struct Way<'a> {
     rod: &'a Rod,
     points: &'a [DiagonalPoint],
     scheme: Scheme,
     loads: &'a NodalLoads,
+    /// The node where it starts, and the one where it arrives.
+    last: usize,
+    first: usize,
 }
 
 impl Way<'_> {
@@ -187,22 +204,22 @@ impl Way<'_> {
         end: Section<V>,
         watch: &mut W,
     ) -> Section<V> {
-        let (elements, nodes) = (self.rod.elements(), self.rod.mesh().nodes());
-        let any = |loads: &[Wrench]| loads[1..elements].iter().any(acts);
+        let (Self { first, last, .. }, nodes) = (*self, self.rod.mesh().nodes());
+        let any = |loads: &[Wrench]| loads[first + 1..last].iter().any(acts);
         let (any_body, any_world) = (any(&self.loads.body), any(&self.loads.world));
         let Section { mut pose, mut wrench } = end;
-        watch.node(elements, &pose);
-        for e in (0..elements).rev() {
+        watch.node(last, &pose);
+        for e in (first..last).rev() {
             let h = nodes[e + 1] - nodes[e];
             let solved = solver.next(&self.points[e * S::POINTS..(e + 1) * S::POINTS], h, &wrench);
             watch.element(e, h, &wrench, &solved);
             wrench = solved.carry(&wrench);
             pose = pose.before(&solved.exponent, solved.t, &solved.coefficients);
             watch.node(e, &pose);
-            if any_world && e > 0 {
+            if any_world && e > first {
                 wrench += turned(&pose, self.loads.world[e].splat());
             }
-            if any_body && e > 0 {
+            if any_body && e > first {
                 wrench += self.loads.body[e].splat();
             }
         }
@@ -216,13 +233,21 @@ fn acts(load: &Wrench) -> bool {
 }
 
 /// The same for any law, in plain numbers, each element by Newton's method.
-fn general(rod: &Rod, scheme: Scheme, loads: &NodalLoads, end: Section, record: &mut Record) -> Section {
+fn general(
+    rod: &Rod,
+    scheme: Scheme,
+    loads: &NodalLoads,
+    elements: Range<usize>,
+    end: Section,
+    record: &mut Record,
+) -> Section {
+    let Range { start: first, end: far } = elements;
     let nodes = rod.mesh().nodes();
     let Section { mut pose, mut wrench } = end;
     // Elastic strains of the last two elements, and their lengths.
     let (mut last, mut lengths) = ([[Strain::ZERO; 2]; 2], [1.0; 2]);
-    record.poses[rod.elements()] = pose;
-    for e in (0..rod.elements()).rev() {
+    record.poses[far] = pose;
+    for e in (first..far).rev() {
         let h = nodes[e + 1] - nodes[e];
         let points = rod.points(e);
         let rest = rod.rest_strains(e);
@@ -234,7 +259,7 @@ fn general(rod: &Rod, scheme: Scheme, loads: &NodalLoads, end: Section, record: 
         let (order, driving) = match scheme {
             Scheme::Element => (rod.order(), wrench),
             Scheme::Multistep => {
-                let known = rod.elements() - 1 - e;
+                let known = far - 1 - e;
                 let elastic = if known == 0 {
                     solve(Order::First, wrench)[0] - rest[0]
                 } else {
@@ -252,7 +277,7 @@ fn general(rod: &Rod, scheme: Scheme, loads: &NodalLoads, end: Section, record: 
         wrench = relative.carry_wrench(wrench);
         pose = pose.compose(&relative.inverse());
         record.poses[e] = pose;
-        if e > 0 {
+        if e > first {
             wrench += loads.body[e] + turned(&pose, loads.world[e]);
         }
     }

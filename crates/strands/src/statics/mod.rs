@@ -4,11 +4,14 @@
 //! sweeps when the loads follow the rod; with dead loads, whose direction in the material frame depends on how the end is turned, and
 //! with a prescribed end, it is a search for what is unknown at the end: [`Method::Shooting`].
 
+mod almost_block_diagonal;
 mod boundary;
+mod chain;
 mod continuation;
 mod equilibrium;
 mod fit;
 mod march;
+mod multiple_shooting;
 mod nodal;
 mod path;
 mod plan;
@@ -87,7 +90,9 @@ pub fn follow(
     if fit::unfit(problem, settings).is_some() {
         return false;
     }
-    let search = if all_at_once(problem, settings, guess) {
+    let search = if settings.method == Method::MultipleShooting {
+        multiple_shooting::from_guess(problem, settings, guess, workspace, report)
+    } else if all_at_once(problem, settings, guess) {
         equilibrium::from_guess(problem, settings, guess, workspace, report)
     } else {
         let state = EndState::from_guess(problem, guess);
@@ -101,7 +106,8 @@ pub fn follow(
 }
 
 /// Takes the way that [`plan`] chooses: two sweeps where they suffice; from a guess a search by shooting where that keeps its digits, and all
-/// frames at once where not; and from rest.
+/// frames at once where not; and from rest. Where shooting from a guess does not get there, multiple shooting is tried, then all frames at once,
+/// then all of it from rest.
 fn find(
     problem: &Problem,
     settings: &Settings,
@@ -154,6 +160,7 @@ fn from_guess(
     match way {
         Way::Settle => return by_moving(problem, settings, workspace, report),
         Way::Move => return equilibrium::from_guess(problem, settings, guess, workspace, report),
+        Way::Segments => return multiple_shooting::from_guess(problem, settings, guess, workspace, report),
         _ => {}
     }
     let state = EndState::from_guess(problem, guess);
@@ -162,9 +169,14 @@ fn from_guess(
         return search;
     }
     if settings.method == Method::Auto && has_energy(problem, settings) && is_held(problem) {
+        let search = multiple_shooting::from_guess(problem, settings, guess, workspace, report);
+        let found = search.outcome == Outcome::Converged;
+        if found && stability::morse_index(problem, workspace).unwrap_or(0) == 0 {
+            return search;
+        }
         return equilibrium::from_guess(problem, settings, guess, workspace, report);
     }
-    path::from_solution(problem, guess, settings, workspace, report)
+    path::from_solution(shoot, problem, guess, settings, workspace, report)
 }
 
 /// Whether the rod is held by more than its clamped start.
@@ -178,8 +190,10 @@ fn from_rest(
     workspace: &mut Workspace,
     report: &mut SolveReport,
 ) -> Search {
-    if plan(problem, settings, None).way == Way::Settle {
-        return by_moving(problem, settings, workspace, report);
+    match plan(problem, settings, None).way {
+        Way::Settle => return by_moving(problem, settings, workspace, report),
+        Way::Segments => return multiple_shooting::from_rest(problem, settings, workspace, report),
+        _ => {}
     }
     // One that hangs free from its clamp is loaded little by little, so that of many equilibria it finds the one on the path of loads.
     let search = by_shooting(problem, settings, workspace, report);
@@ -217,11 +231,11 @@ fn by_shooting(
     report: &mut SolveReport,
 ) -> Search {
     if !problem.end.fixed[3..].contains(&true) {
-        return path::from_rest(problem, settings, Vec3::ZERO, workspace, report);
+        return path::from_rest(shoot, problem, settings, Vec3::ZERO, workspace, report);
     }
     let mut best: Option<Search> = None;
     for nudge in path::nudges(problem) {
-        let search = path::from_rest(problem, settings, nudge, workspace, report);
+        let search = path::from_rest(shoot, problem, settings, nudge, workspace, report);
         let converged = search.outcome == Outcome::Converged;
         if converged && stability::morse_index(problem, workspace).unwrap_or(0) == 0 {
             return search;

@@ -10,7 +10,7 @@
 
 use super::boundary::{EndState, meet};
 use super::problem::{Problem, Support};
-use super::shooting::{Outcome, Search, Workspace, shoot};
+use super::shooting::{Inverse, Outcome, Search, Workspace};
 use super::solution::{Guess, Settings, SolveReport};
 use super::stability::morse_index;
 use crate::math::{Mat3, Pose, Quat, Vec3, Wrench};
@@ -27,6 +27,10 @@ const LARGEST_TURN_OF_A_STEP: f64 = 1.0;
 const SAMPLES: usize = 9;
 /// The force across the rod, all along it together, over `EI/L²`: enough to bend a free rod by about a fifth of its length.
 const NUDGE: f64 = 2.0;
+
+/// Searches for a solution from a state of the end nearby, with the inverse Jacobian there if there is one.
+pub(crate) type Searcher =
+    fn(&Problem, &Settings, EndState, Option<Inverse>, &mut Workspace, &mut SolveReport) -> Search;
 
 /// The unloaded rod from its start's frame: the frame of its end, and no wrench.
 pub(crate) fn rest(problem: &Problem) -> Guess {
@@ -56,6 +60,7 @@ enum Change {
 
 /// Walks from rest to the problem. `nudge` is the direction of the force across the rod.
 pub(crate) fn from_rest(
+    search: Searcher,
     problem: &Problem,
     settings: &Settings,
     nudge: Vec3,
@@ -65,30 +70,32 @@ pub(crate) fn from_rest(
     let nudge = nudge * (NUDGE * problem.rod.scale().force);
     let from = rest(problem);
     if problem.end.fixed == [false; 6] && problem.end.grip.is_none() {
-        return walk(problem, &from, Change::LoadsGrow(Vec3::ZERO), settings, workspace, report);
+        return walk(search, problem, &from, Change::LoadsGrow(Vec3::ZERO), settings, workspace, report);
     }
     let loose = Problem { end: Support::free(from.pose), ..problem.clone() };
-    let hanging = walk(&loose, &from, Change::LoadsGrow(nudge), settings, workspace, report);
+    let hanging = walk(search, &loose, &from, Change::LoadsGrow(nudge), settings, workspace, report);
     if hanging.outcome != Outcome::Converged {
         return hanging;
     }
     // The held end has other unknowns, and no use for the free one's Jacobian.
     let from = Guess { inverse: None, ..hanging.guess(&loose) };
-    walk(problem, &from, Change::EndMoves(nudge), settings, workspace, report)
+    walk(search, problem, &from, Change::EndMoves(nudge), settings, workspace, report)
 }
 
 /// Walks from a solution of a problem that differs in where its end is held.
 pub(crate) fn from_solution(
+    search: Searcher,
     problem: &Problem,
     guess: &Guess,
     settings: &Settings,
     workspace: &mut Workspace,
     report: &mut SolveReport,
 ) -> Search {
-    walk(problem, guess, Change::EndMoves(Vec3::ZERO), settings, workspace, report)
+    walk(search, problem, guess, Change::EndMoves(Vec3::ZERO), settings, workspace, report)
 }
 
 fn walk(
+    by: Searcher,
     problem: &Problem,
     from: &Guess,
     change: Change,
@@ -100,7 +107,7 @@ fn walk(
     let mut family = problem.clone();
     set(&mut family, problem, from, change, 0.0);
     let start = EndState::from_guess(&family, from);
-    let mut search = shoot(&family, settings, start, from.inverse, workspace, report);
+    let mut search = by(&family, settings, start, from.inverse, workspace, report);
     let (mut at, mut step) = (0.0, FIRST_STEP);
     let smallest = 0.5_f64.powi(i32::try_from(settings.max_halvings).unwrap_or(i32::MAX)) * FIRST_STEP;
     let mut reached = search.state;
@@ -111,8 +118,7 @@ fn walk(
         let next = f64::min(at + step, 1.0);
         set(&mut family, problem, from, change, next);
         let before = report.iterations;
-        let mut tried =
-            shoot(&family, &on_the_way, reached.moved(&family), search.inverse, workspace, report);
+        let mut tried = by(&family, &on_the_way, reached.moved(&family), search.inverse, workspace, report);
         report.path_steps += 1;
         if tried.outcome == Outcome::Converged {
             // A step that lost stability has landed on another branch, or passed a place where the rod would snap.

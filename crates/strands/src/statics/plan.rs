@@ -27,6 +27,8 @@ pub(super) enum Way {
     Walk,
     /// All frames at once, from rest.
     Settle,
+    /// Multiple shooting, from a guess or from rest.
+    Segments,
 }
 
 /// The way that [`solve`](super::solve) tries first with these settings, from a guess or from rest.
@@ -38,6 +40,9 @@ pub fn plan(problem: &Problem, settings: &Settings, guess: Option<&Guess>) -> Pl
     if swept && !problem.loads.any_in_world() {
         let why = "its start is clamped, its end free, and the loads follow it: two sweeps give the answer without a search";
         return Plan { method: Method::Sweep, why, way: Way::TwoSweeps };
+    }
+    if settings.method == Method::MultipleShooting {
+        return Plan { method: Method::MultipleShooting, why: "it was asked for", way: Way::Segments };
     }
     if let Some(guess) = guess {
         if !all_at_once(problem, settings, guess) {

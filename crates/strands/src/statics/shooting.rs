@@ -5,6 +5,7 @@
 
 use super::boundary::{EndState, residual, residual_slope, unknown_scale};
 use super::march::{Record, Section, march, march_lanes};
+use super::multiple_shooting::MultipleShooting;
 use super::nodal::Nodal;
 use super::problem::Problem;
 use super::solution::{Guess, Jacobian, Scheme, Settings, SolveReport};
@@ -25,6 +26,7 @@ pub struct Workspace {
     pub(crate) record: Record,
     trial: Record,
     pub(crate) nodal: Nodal,
+    pub(crate) multiple: MultipleShooting,
     /// The vector instructions that the kernels use.
     pub simd: SimdLevel,
 }
@@ -35,6 +37,7 @@ impl Default for Workspace {
             record: Record::default(),
             trial: Record::default(),
             nodal: Nodal::default(),
+            multiple: MultipleShooting::default(),
             simd: SimdLevel::detect(),
         }
     }

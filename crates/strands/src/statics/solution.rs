@@ -14,6 +14,8 @@ pub enum Method {
     Sweep,
     /// A search for the unknown half of the frame and wrench at the end.
     Shooting,
+    /// The same for the frame and wrench at several places along the rod at once.
+    MultipleShooting,
     /// All frames at once, moving to where the rod rests.
     Equilibrium,
 }
@@ -25,6 +27,7 @@ impl Method {
             Self::Auto => "auto",
             Self::Sweep => "sweep",
             Self::Shooting => "shooting",
+            Self::MultipleShooting => "multiple_shooting",
             Self::Equilibrium => "equilibrium",
         }
     }
@@ -146,7 +149,7 @@ pub struct SolveReport {
     pub sweeps: usize,
     /// Jacobians of shooting.
     pub jacobians: usize,
-    /// Factorisations of the nodal system.
+    /// Factorisations of the nodal system, or of that of multiple shooting.
     pub factorisations: usize,
     /// Steps on the way from the last solution or from rest; 1 where the search converged at once.
     pub path_steps: usize,
@@ -297,6 +300,12 @@ pub enum FailureReason {
         /// The last node of the rod.
         last: usize,
     },
+    /// The scheme does not go with multiple shooting.
+    #[error(
+        "the multistep scheme takes its strains from the elements before, and multiple shooting begins anew in each segment; use \
+         scheme = \"element\", or method = \"shooting\""
+    )]
+    SchemeOfSegments,
     /// The scheme does not go with the rod's order.
     #[error(
         "the multistep scheme takes one strain an element, and a rod of order {order} has two; use scheme = \"element\", or order = 2"

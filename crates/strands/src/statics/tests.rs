@@ -7,6 +7,7 @@ use crate::rod::{Law, Mesh, Order, Profile, RestShape, Rod, RodDescription, Stif
 mod continuation;
 mod fit;
 mod meshes;
+mod multiple_shooting;
 mod schemes;
 mod search;
 mod supports;

@@ -15,6 +15,7 @@ use crate::element::{self, DiagonalPoint, diagonal_flexibility};
 use crate::load::NodalLoads;
 use crate::math::{Kernel, Lanes, Mat3, Pose, SimdLevel, Vec3, Vec6, Vector, Wrench, dispatch};
 use crate::rod::{Order, Rod};
+use core::ops::Range;
 
 /// A variation of a section: of its frame and of its wrench in it; both in body axes, or both seen from the start.
 #[derive(Clone, Copy, Debug)]
@@ -40,28 +41,29 @@ pub(crate) fn vary(
     columns: &Columns,
     in_lanes: bool,
 ) -> Option<Columns> {
-    let origin = record.poses[0].position;
-    let seen = |node: usize| {
-        let pose = record.poses[node];
-        Pose { rotation: pose.rotation, position: pose.position - origin }
-    };
-    let end = seen(rod.elements());
-    let columns = columns.map(|column| Variation {
-        frame: end.adjoint(column.frame),
-        wrench: end.carry_wrench(column.wrench),
-    });
-    let way = Way { rod, loads, record, origin };
-    let columns = if in_lanes {
-        let [packed] = dispatch(level, Sweep { way, columns: [into_lanes(&columns)] })?;
-        out_of_lanes(&packed)
-    } else {
-        dispatch(level, Sweep { way, columns })?
-    };
-    let start = seen(0).inverse();
-    Some(columns.map(|column| Variation {
-        frame: start.adjoint(column.frame),
-        wrench: start.carry_wrench(column.wrench),
-    }))
+    let way = Way { rod, loads, record, first: 0, origin: record.poses[0].position };
+    let last = rod.elements();
+    if in_lanes {
+        return way.vary_in_lanes(level, last, &record.poses[0], &[*columns]).map(|[columns]| columns);
+    }
+    let columns = columns.map(|column| way.seen(&record.poses[last], column));
+    let columns = dispatch(level, Sweep { way, last, columns })?;
+    Some(columns.map(|column| way.back(&record.poses[0], column)))
+}
+
+/// Carries sets of columns along a recorded march over some of the elements, in lanes, from the far node of the last of them to the near
+/// node of the first, where the march has arrived at the pose `near`.
+pub(crate) fn vary_along<const N: usize>(
+    level: SimdLevel,
+    rod: &Rod,
+    loads: &NodalLoads,
+    record: &Record,
+    elements: Range<usize>,
+    near: &Pose,
+    columns: &[Columns; N],
+) -> Option<[Columns; N]> {
+    let way = Way { rod, loads, record, first: elements.start, origin: near.position };
+    way.vary_in_lanes(level, elements.end, near, columns)
 }
 
 fn into_lanes(columns: &Columns) -> Variation<Side> {
@@ -77,12 +79,14 @@ fn out_of_lanes(packed: &Variation<Side>) -> Columns {
     core::array::from_fn(|i| Variation { frame: packed.frame.lane(i), wrench: packed.wrench.lane(i) })
 }
 
-/// A recorded march, seen from its start.
+/// A recorded march, seen from where it arrives.
 #[derive(Clone, Copy)]
 struct Way<'a> {
     rod: &'a Rod,
     loads: &'a NodalLoads,
     record: &'a Record,
+    /// The element before which it arrives.
+    first: usize,
     origin: Vec3,
 }
 
@@ -116,14 +120,40 @@ fn block(block: &Mat3<Side>, i: usize) -> Mat3 {
 }
 
 impl Way<'_> {
-    /// The elements `last, last − 1, …` of a rod of order 2 with a diagonal law; past the first element they repeat it.
+    #[inline(always)]
+    fn vary_in_lanes<const N: usize>(
+        &self,
+        level: SimdLevel,
+        last: usize,
+        near: &Pose,
+        columns: &[Columns; N],
+    ) -> Option<[Columns; N]> {
+        let end = &self.record.poses[last];
+        let columns = columns.map(|columns| into_lanes(&columns.map(|column| self.seen(end, column))));
+        let columns = dispatch(level, Sweep { way: *self, last, columns })?;
+        Some(columns.map(|columns| out_of_lanes(&columns).map(|column| self.back(near, column))))
+    }
+
+    /// A variation in the axes of a frame, as it is seen from where the march arrives.
+    fn seen(&self, from: &Pose, column: Variation) -> Variation {
+        let from = Pose { rotation: from.rotation, position: from.position - self.origin };
+        Variation { frame: from.adjoint(column.frame), wrench: from.carry_wrench(column.wrench) }
+    }
+
+    /// The way back.
+    fn back(&self, to: &Pose, column: Variation) -> Variation {
+        let to = Pose { rotation: to.rotation, position: to.position - self.origin }.inverse();
+        Variation { frame: to.adjoint(column.frame), wrench: to.carry_wrench(column.wrench) }
+    }
+
+    /// The elements `last, last − 1, …` of a rod of order 2 with a diagonal law; past the first of the march they repeat it.
     #[inline(always)]
     fn batch(&self, points: &[DiagonalPoint], last: usize) -> Batch {
         let (record, nodes) = (self.record, self.rod.mesh().nodes());
         let [mut compliance, mut x, mut wrench] = [Vec6::<Side>::zero(); 3];
         let mut far = Pose { rotation: Mat3 { cols: [Side::zero(); 3] }, position: Side::zero() };
         for i in 0..BATCH {
-            let e = last.saturating_sub(i);
+            let e = last.saturating_sub(i).max(self.first);
             compliance.put(i, points[e].compliance);
             x.put(i, record.strains[e][0] * (nodes[e + 1] - nodes[e]));
             wrench.put(i, record.wrenches[e]);
@@ -161,12 +191,12 @@ impl Way<'_> {
         let frame = at.frame - yielded;
         let mut wrench = at.wrench + yielded.coadjoint(element.wrench.splat());
         let load = &self.loads.world[e];
-        if e > 0 && load.linear != Vec3::ZERO {
+        if e > self.first && load.linear != Vec3::ZERO {
             let change = V::splat(load.linear).cross(frame.angular);
             wrench.linear += change;
             wrench.angular += V::splat(self.record.poses[e].position - self.origin).cross(change);
         }
-        if e > 0 && load.angular != Vec3::ZERO {
+        if e > self.first && load.angular != Vec3::ZERO {
             wrench.angular += V::splat(load.angular).cross(frame.angular);
         }
         Variation { frame, wrench }
@@ -175,6 +205,8 @@ impl Way<'_> {
 
 struct Sweep<'a, V, const N: usize> {
     way: Way<'a>,
+    /// The element after the last.
+    last: usize,
     columns: [Variation<V>; N],
 }
 
@@ -183,11 +215,11 @@ impl<V: Vector, const N: usize> Kernel for Sweep<'_, V, N> {
 
     #[inline(always)]
     fn run(self) -> Self::Output {
-        let Self { way, mut columns } = self;
+        let Self { way, last, mut columns } = self;
         let rod = way.rod;
         let points = if rod.order() == Order::Second { rod.diagonal_points() } else { None };
         let Some(points) = points else {
-            for e in (0..rod.elements()).rev() {
+            for e in (way.first..last).rev() {
                 let element = way.general(e)?;
                 for column in &mut columns {
                     *column = way.pass(e, &element, *column);
@@ -195,10 +227,10 @@ impl<V: Vector, const N: usize> Kernel for Sweep<'_, V, N> {
             }
             return Some(columns);
         };
-        let mut left = rod.elements();
-        while left > 0 {
+        let mut left = last;
+        while left > way.first {
             let batch = way.batch(points, left - 1);
-            let here = left.min(BATCH);
+            let here = (left - way.first).min(BATCH);
             for i in 0..here {
                 let element = batch.element(i);
                 for column in &mut columns {
