@@ -26,14 +26,16 @@ mod case;
 mod expected;
 mod planar;
 mod pose;
+mod setup;
 mod spatial;
 mod spring;
 mod table;
 mod tip_wrench;
 pub mod workloads;
 
-pub use case::{Answer, Case, CaseError, Outcome, Row, Setup, Start, Tip};
+pub use case::{Answer, Case, CaseError, Outcome, Row, Start};
 pub use expected::{Comparison, Expected, Quantity, Value};
+pub use setup::{Setup, Tip};
 
 /// Every case.
 pub fn all() -> Vec<Case> {

@@ -43,10 +43,9 @@ fn force(x: f64, y: f64) -> Wrench {
 }
 
 fn row(label: String, description: RodDescription, wrench: Wrench, expected: Vec<Expected>) -> Row {
-    let tip = Tip::Wrench { wrench, frame: Frame::World };
     Row {
         label,
-        setup: Setup { description, force_per_length: Vec3::ZERO, tip },
+        setup: Setup::cantilever(description).with_tip(Tip::Wrench { wrench, frame: Frame::World }),
         start: Start::Cold,
         answers: vec![Answer::new(expected)],
     }
@@ -101,7 +100,8 @@ fn follower_load() -> Case {
         let label = format!("P L²/EI = {}", record.number("alpha"));
         let mut row = row(label, straight(0.8, 0.05, None), force(0.0, 0.0), expected);
         // The left normal of the tip is its d1.
-        row.setup.tip = Tip::Wrench { wrench: Wrench::new(Vec3::ZERO, Vec3::X * load), frame: Frame::Body };
+        let wrench = Wrench::new(Vec3::ZERO, Vec3::X * load);
+        row.setup = row.setup.with_tip(Tip::Wrench { wrench, frame: Frame::Body });
         row
     });
     Case {
