@@ -32,6 +32,11 @@ pub enum Quantity {
     TipForce,
     /// The moment of the support at the end, N·m, world axes.
     TipMoment,
+    /// The force of the support at `s`, N, world axes.
+    SupportForce {
+        /// Where along the rod, m.
+        s: f64,
+    },
     /// The stored energy, J.
     ElasticEnergy,
     /// The energy of the dead forces, minus force times position, J.
@@ -107,9 +112,10 @@ impl Expected {
     /// Where along the rod it is taken, for quantities that need a node there.
     pub fn place(&self) -> Option<f64> {
         match self.quantity {
-            Quantity::Position { s } | Quantity::Deflection { s, .. } | Quantity::Orientation { s } => {
-                Some(s)
-            }
+            Quantity::Position { s }
+            | Quantity::Deflection { s, .. }
+            | Quantity::Orientation { s }
+            | Quantity::SupportForce { s } => Some(s),
             _ => None,
         }
     }
@@ -143,6 +149,10 @@ impl Quantity {
             Self::BaseMoment => Value::Vector(-start.moment),
             Self::TipForce => Value::Vector(end.force),
             Self::TipMoment => Value::Vector(end.moment),
+            Self::SupportForce { s } => {
+                let node = problem.supports().position(|(node, _)| problem.rod.mesh().node_at(s) == Some(node));
+                Value::Vector(solution.reactions[node.unwrap_or_else(|| panic!("nothing at {s}"))].force)
+            }
             Self::ElasticEnergy => Value::Scalar(solution.energy.elastic),
             Self::LoadEnergy => Value::Scalar(solution.energy.load),
         }
@@ -159,6 +169,7 @@ impl fmt::Display for Quantity {
             Self::BaseMoment => f.write_str("base moment"),
             Self::TipForce => f.write_str("tip force"),
             Self::TipMoment => f.write_str("tip moment"),
+            Self::SupportForce { s } => write!(f, "force of the support at s = {s:.6}"),
             Self::ElasticEnergy => f.write_str("elastic energy"),
             Self::LoadEnergy => f.write_str("load energy"),
         }

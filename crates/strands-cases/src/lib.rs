@@ -21,15 +21,19 @@
 //!
 //! [`workloads`] are long runs of problems, each next to the one before, as an interactive program has them.
 
+mod arcs;
 pub mod bank;
+mod buckled;
 mod case;
 mod expected;
+mod heavy;
 mod planar;
 mod pose;
 mod setup;
 mod spatial;
 mod spring;
 mod table;
+mod three_points;
 mod tip_wrench;
 pub mod workloads;
 
@@ -39,7 +43,18 @@ pub use setup::{Setup, Tip};
 
 /// Every case.
 pub fn all() -> Vec<Case> {
-    [planar::cases(), spatial::cases(), spring::cases(), tip_wrench::cases(), pose::cases()].concat()
+    [
+        planar::cases(),
+        buckled::cases(),
+        heavy::cases(),
+        arcs::cases(),
+        spatial::cases(),
+        spring::cases(),
+        tip_wrench::cases(),
+        pose::cases(),
+        three_points::cases(),
+    ]
+    .concat()
 }
 
 /// The case of that name.

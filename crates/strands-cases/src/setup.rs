@@ -2,7 +2,7 @@
 
 use strands::load::{DistributedLoad, Frame, NodalLoads, PointLoad};
 use strands::math::{Pose, Vec3, Wrench};
-use strands::rod::{Order, Rod, RodDescription, RodError};
+use strands::rod::{Mesh, Order, Rod, RodDescription, RodError};
 use strands::statics::{Problem, Support};
 
 /// A rod, what acts on it and what holds it.
@@ -16,6 +16,9 @@ pub struct Setup {
     pub loads: Vec<PointLoad>,
     /// Where along it it is held, m, and how. An end of which nothing is said is free.
     pub supports: Vec<(f64, Support)>,
+    /// Pieces of its mesh, by where each ends, m, and the part of all elements that it gets; none where all elements are alike. For rods that
+    /// bend over a short length at a place that is known.
+    pub pieces: Vec<(f64, f64)>,
 }
 
 /// What is given at the tip.
@@ -41,6 +44,7 @@ impl Setup {
             force_per_length: Vec3::ZERO,
             loads: Vec::new(),
             supports: vec![(0.0, Support::clamped(base))],
+            pieces: Vec::new(),
         }
     }
 
@@ -80,6 +84,15 @@ impl Setup {
         self
     }
 
+    /// The same rod, cut finer at its two ends: a third of its elements over this length at each.
+    #[must_use]
+    pub fn fine_at_ends(self, over: f64) -> Self {
+        let length = self.description.length;
+        let half = 0.5 * length;
+        let pieces = [(over, 1.0 / 3.0), (half, 1.0 / 6.0), (length - over, 1.0 / 6.0), (length, 1.0 / 3.0)];
+        Self { pieces: pieces.to_vec(), ..self }
+    }
+
     /// The problem on a mesh with nodes wherever the rod is loaded or held, and at further `places`.
     ///
     /// # Errors
@@ -88,7 +101,13 @@ impl Setup {
         let loaded = self.loads.iter().map(|load| load.at);
         let held = self.supports.iter().map(|(place, _)| *place);
         let places: Vec<f64> = places.iter().copied().chain(loaded).chain(held).collect();
-        let rod = Rod::with_elements(self.description.clone(), elements, &places, order)?;
+        let rod = if self.pieces.is_empty() {
+            Rod::with_elements(self.description.clone(), elements, &places, order)?
+        } else {
+            let count = |part: f64| ((part * elements as f64).round() as usize).max(1);
+            let pieces: Vec<_> = self.pieces.iter().map(|(end, part)| (*end, count(*part))).collect();
+            Rod::new(self.description.clone(), Mesh::from_pieces(&pieces)?, order)?
+        };
         let mut problem = Problem::cantilever(rod);
         self.apply(&mut problem)?;
         Ok(problem)

@@ -81,27 +81,31 @@ fn laid_out(
     workspace: &mut Workspace,
     report: &mut SolveReport,
 ) -> Outcome {
-    let rod = &problem.rod;
     let mut outcome = Outcome::Stalled;
     for plan in &PLANS {
-        let record = &mut workspace.record;
-        record.fit(rod.elements());
-        record.wrenches.fill(Wrench::ZERO);
-        record.poses[0] = rod.description().base;
-        let bend = Strain::new(plan.bend * (1.0 / rod.length()), Vec3::ZERO);
-        for e in 0..rod.elements() {
-            record.strains[e] = rod.rest_strains(e);
-            let bent = record.strains[e].map(|strain| strain + bend);
-            let relative = Pose::exp(element::exponent(rod.order(), rod.element_length(e), &bent));
-            record.poses[e + 1] = record.poses[e].compose(&relative);
-        }
-        put_between_supports(problem, &mut record.poses);
+        lay_out_bent(problem, plan.bend * (1.0 / problem.rod.length()), &mut workspace.record);
         outcome = relax(problem, settings, plan, workspace, report);
         if outcome == Outcome::Converged {
             break;
         }
     }
     outcome
+}
+
+/// Lays the rod out between its supports by its rest shape, bent by so much beside it (1/m), bearing nothing.
+fn lay_out_bent(problem: &Problem, bend: Vec3, record: &mut Record) {
+    let rod = &problem.rod;
+    record.fit(rod.elements());
+    record.wrenches.fill(Wrench::ZERO);
+    record.poses[0] = rod.description().base;
+    let bend = Strain::new(bend, Vec3::ZERO);
+    for e in 0..rod.elements() {
+        record.strains[e] = rod.rest_strains(e);
+        let bent = record.strains[e].map(|strain| strain + bend);
+        let relative = Pose::exp(element::exponent(rod.order(), rod.element_length(e), &bent));
+        record.poses[e + 1] = record.poses[e].compose(&relative);
+    }
+    put_between_supports(problem, &mut record.poses);
 }
 
 /// A milder problem, from which to get to a hard one by degrees.
@@ -230,12 +234,28 @@ pub(crate) fn from_guess(
             // What its supports between bear is not in the guess.
             return from_rest(problem, settings, workspace, report);
         }
-        let end = Section { pose: guess.pose, wrench: guess.wrench };
-        march(workspace.simd, &problem.rod, Scheme::Element, &problem.loads, end, &mut workspace.record);
+        march_from(guess, problem, workspace);
         report.sweeps += 1;
     }
     let outcome = from_state(problem, settings, workspace, report);
     found(problem, outcome, workspace)
+}
+
+/// Puts a guess's state into the workspace where it is not there yet, or the rod at rest, between the supports as they are now.
+pub(crate) fn lay_out(problem: &Problem, guess: Option<&Guess>, workspace: &mut Workspace) {
+    let Some(guess) = guess else {
+        return lay_out_bent(problem, Vec3::ZERO, &mut workspace.record);
+    };
+    if !holds_state_of(guess, problem, &workspace.record) {
+        march_from(guess, problem, workspace);
+    }
+    put_between_supports(problem, &mut workspace.record.poses);
+}
+
+/// Puts the state into the workspace that a march from a guess makes.
+fn march_from(guess: &Guess, problem: &Problem, workspace: &mut Workspace) {
+    let end = Section { pose: guess.pose, wrench: guess.wrench };
+    march(workspace.simd, &problem.rod, Scheme::Element, &problem.loads, end, &mut workspace.record);
 }
 
 /// Moves on from the state in the workspace, put between the supports where they are now.
