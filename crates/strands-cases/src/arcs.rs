@@ -2,16 +2,23 @@
 //!
 //! Each is so stiff across the plane of x and y that it stays in it.
 
+use crate::columns::branch;
+use crate::critical::CriticalCase;
 use crate::planar::{kept_in_plane, moment, straight, turned};
 use crate::table::Table;
 use crate::{Answer, Case, Expected, Quantity, Row, Setup, Start};
 use core::f64::consts::{FRAC_PI_2, PI};
-use strands::math::{Pose, Vec3};
+use strands::load::{Frame, PointLoad};
+use strands::math::{Pose, Vec3, Wrench};
 use strands::rod::{RestShape, RodDescription};
 use strands::statics::Support;
 
 pub(crate) fn cases() -> Vec<Case> {
-    vec![pinched_ring(), deep_arch()]
+    vec![pinched_ring(), deep_arch(), symmetric_arch()]
+}
+
+pub(crate) fn critical_cases() -> Vec<CriticalCase> {
+    vec![pressed_ring(), swaying_arch()]
 }
 
 /// A frame in the plane, its tangent at an angle to x.
@@ -28,13 +35,19 @@ pub(crate) fn arc(length: f64, bending: f64, curvature: f64, base: Pose) -> RodD
     }
 }
 
-/// A quarter of a ring about the origin, from where it crosses x to its pole on y: both crossings stay across, and slide along their axes.
-pub(crate) fn quarter_ring(radius: f64, bending: f64) -> Setup {
-    let (side, pole) = (at(radius, 0.0, FRAC_PI_2), at(0.0, radius, PI));
-    let length = radius * FRAC_PI_2;
+/// A wedge of a ring about the origin, from x on through an angle: both its ends stay across their radii and slide along them.
+fn wedge(radius: f64, bending: f64, angle: f64) -> Setup {
+    let (side, pole) = (at(radius, 0.0, FRAC_PI_2), radial(angle) * radius);
+    let pole = at(pole.x, pole.y, angle + FRAC_PI_2);
+    let length = radius * angle;
     Setup::cantilever(arc(length, bending, 1.0 / radius, side))
         .held(0.0, Support::clamped(side).sliding_along(Vec3::X))
-        .held(length, Support::clamped(pole).sliding_along(Vec3::Y))
+        .held(length, Support::clamped(pole).sliding_along(radial(angle)))
+}
+
+/// The direction at an angle to x.
+fn radial(angle: f64) -> Vec3 {
+    Vec3::new(angle.cos(), angle.sin(), 0.0)
 }
 
 fn pinched_ring() -> Case {
@@ -55,7 +68,7 @@ fn pinched_ring() -> Case {
         Row {
             label: format!("F R²/EI = {}", record.number("ratio")),
             // Each half of the ring bears half of the force.
-            setup: quarter_ring(RADIUS, BENDING).with_force(length, Vec3::Y * (-0.5 * load)),
+            setup: wedge(RADIUS, BENDING, FRAC_PI_2).with_force(length, Vec3::Y * (-0.5 * load)),
             start: Start::Cold,
             answers: vec![Answer::stable(expected)],
         }
@@ -71,14 +84,28 @@ fn pinched_ring() -> Case {
     }
 }
 
+/// The radius of the arch, its stiffness, and half of what it subtends.
+const ARCH_RADIUS: f64 = 2.0;
+const ARCH_BENDING: f64 = 5.0;
+const ARCH_HALF: f64 = 107.5 * PI / 180.0;
+
+/// The arch clamped at its left end.
+fn arch() -> Setup {
+    let left = radial(FRAC_PI_2 + ARCH_HALF) * ARCH_RADIUS;
+    let base = at(left.x, left.y, ARCH_HALF);
+    Setup::cantilever(arc(2.0 * ARCH_RADIUS * ARCH_HALF, ARCH_BENDING, -1.0 / ARCH_RADIUS, base))
+}
+
+/// A hinge at the arch's left or right end.
+fn arch_hinge(side: f64) -> Support {
+    let place = radial(FRAC_PI_2 - side * ARCH_HALF) * ARCH_RADIUS;
+    Support::pinned(at(place.x, place.y, -side * ARCH_HALF)).turning_about(Vec3::Z)
+}
+
 fn deep_arch() -> Case {
-    const RADIUS: f64 = 2.0;
-    const BENDING: f64 = 5.0;
-    let half_angle = 107.5_f64.to_radians();
-    let length = 2.0 * RADIUS * half_angle;
-    let (sin, cos) = half_angle.sin_cos();
-    let left = at(-RADIUS * sin, RADIUS * cos, half_angle);
-    let right = at(RADIUS * sin, RADIUS * cos, -half_angle);
+    const RADIUS: f64 = ARCH_RADIUS;
+    const BENDING: f64 = ARCH_BENDING;
+    let length = arch().description.length;
     let table = Table::read(include_str!("../data/deep_arch.csv"));
     let rows = table.records().map(|record| {
         let drop = record.number("drop");
@@ -92,9 +119,9 @@ fn deep_arch() -> Case {
         }
         Row {
             label: format!("drop/R = {:.4}, P R²/EI = {:.6}", drop / RADIUS, -push.y * RADIUS * RADIUS / BENDING),
-            setup: Setup::cantilever(arc(length, BENDING, -1.0 / RADIUS, left))
+            setup: arch()
                 .held(0.5 * length, Support::pinned(crown).sliding_along(Vec3::X))
-                .held(length, Support::pinned(right)),
+                .held(length, arch_hinge(1.0)),
             // Far down, it may also rest with its hinged half thrown over.
             start: if drop < 0.1 { Start::Cold } else { Start::PreviousRow },
             answers: vec![Answer::new(expected)],
@@ -108,5 +135,97 @@ fn deep_arch() -> Case {
         elements: 200,
         rows: rows.collect(),
         remark: Some("Published limit load: 8.97 EI/R²; the row at a drop of 1.1373 R is at the limit."),
+    }
+}
+
+const SYMMETRIC: &str = "DaDeppo & Schmidt, J. Appl. Mech. 42:894–896, 1975, both ends hinged; computed by a Runge–Kutta method at two steps";
+
+/// Where the arch between hinges starts to sway: the load, over `EI/R²`, and how far its crown is down, over the radius.
+const SWAY: [f64; 2] = [3.276_514_800_008_21, 0.166_785_629_255_123];
+/// The most it bears while it is kept symmetric, in the same way.
+const SYMMETRIC_LIMIT: [f64; 2] = [9.463_108_888_547_64, 1.118_772_431_742_9];
+
+fn symmetric_arch() -> Case {
+    let length = 0.5 * arch().description.length;
+    let rows = [("where it would sway", SWAY), ("the most it bears", SYMMETRIC_LIMIT)].map(|(label, [load, drop])| {
+        let mut setup = arch().held(0.0, arch_hinge(-1.0));
+        setup.description.length = length;
+        let crown = at(0.0, ARCH_RADIUS * (1.0 - drop), 0.0);
+        let push = -0.5 * load * ARCH_BENDING / (ARCH_RADIUS * ARCH_RADIUS);
+        Row {
+            label: label.into(),
+            setup: setup.held(length, Support::clamped(crown)),
+            start: Start::Cold,
+            answers: vec![Answer::new(vec![
+                Expected::deflection(length, Vec3::Y, crown.position.y).measured_by(ARCH_RADIUS),
+                Expected::scalar(Quantity::TipForceAlong { along: Vec3::Y }, push),
+            ])],
+        }
+    });
+    Case {
+        name: "symmetric-arch".into(),
+        title: "Half of an arch of 215° between hinges, its crown pushed straight down".into(),
+        source: SYMMETRIC,
+        tolerance: 1e-6,
+        elements: 200,
+        rows: rows.to_vec(),
+        remark: None,
+    }
+}
+
+fn swaying_arch() -> CriticalCase {
+    let unit = ARCH_BENDING / (ARCH_RADIUS * ARCH_RADIUS);
+    let length = arch().description.length;
+    let family = move |load: f64| {
+        arch()
+            .held(0.0, arch_hinge(-1.0))
+            .held(length, arch_hinge(1.0))
+            .with_force(0.5 * length, Vec3::Y * (-load * unit))
+    };
+    CriticalCase {
+        name: "swaying-arch".into(),
+        title: "The load on its crown under which an arch of 215° between hinges sways".into(),
+        source: SYMMETRIC,
+        tolerance: 1e-6,
+        elements: 200,
+        branches: vec![branch("between hinges".into(), vec![SWAY[0]], (0.5 * length, Vec3::X), family)],
+        remark: None,
+    }
+}
+
+/// Stretches of a wedge whose pressure acts at the places between them.
+const STRETCHES: usize = 60;
+
+fn pressed_ring() -> CriticalCase {
+    let table = Table::read(include_str!("../data/pressed_ring.csv"));
+    let branches = table.records().flat_map(|record| {
+        let n = record.number("n");
+        let angle = PI / n;
+        let pressed = |kind, dead: bool| {
+            // Nothing can be said of more than the first mode of a wedge, which is the ring's n-th.
+            branch(format!("{kind}, n = {n}"), vec![record.number(kind)], (angle, radial(angle)), move |pressure| {
+                let mut setup = wedge(1.0, 1.0, angle);
+                for i in 0..=STRETCHES {
+                    let at = angle * i as f64 / STRETCHES as f64;
+                    let share = if i == 0 || i == STRETCHES { 0.5 } else { 1.0 };
+                    let size = share * pressure * angle / STRETCHES as f64;
+                    // The normal to the inside is d1.
+                    let (force, frame) =
+                        if dead { (radial(at) * -size, Frame::World) } else { (Vec3::X * size, Frame::Body) };
+                    setup.loads.push(PointLoad { at, wrench: Wrench::new(Vec3::ZERO, force), frame });
+                }
+                setup
+            })
+        };
+        [pressed("hydrostatic", false), pressed("dead", true)]
+    });
+    CriticalCase {
+        name: "pressed-ring".into(),
+        title: "The pressure under which a ring collapses in its plane, by a wedge of it".into(),
+        source: "Lévy 1884; Bresse 1866; Boresi 1955; Singer & Babcock 1970; Timoshenko & Gere 1961, art. 7.3: a textbook's values",
+        tolerance: 1e-3,
+        elements: 120,
+        branches: branches.collect(),
+        remark: Some("Pressure that stays across the ring has no potential here, so no index is known. One that points to the centre is no load of a rod."),
     }
 }

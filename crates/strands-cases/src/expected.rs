@@ -30,6 +30,11 @@ pub enum Quantity {
     BaseMoment,
     /// The internal force at the end, N, world axes: what acts on the tip there.
     TipForce,
+    /// The part of that force along a direction, N.
+    TipForceAlong {
+        /// The direction, of length one, world axes.
+        along: Vec3,
+    },
     /// The moment of the support at the end, N·m, world axes.
     TipMoment,
     /// The force of the support at `s`, N, world axes.
@@ -148,6 +153,7 @@ impl Quantity {
             Self::BaseForce => Value::Vector(-start.force),
             Self::BaseMoment => Value::Vector(-start.moment),
             Self::TipForce => Value::Vector(end.force),
+            Self::TipForceAlong { along } => Value::Scalar(end.force.dot(along)),
             Self::TipMoment => Value::Vector(end.moment),
             Self::SupportForce { s } => {
                 let node = problem.supports().position(|(node, _)| problem.rod.mesh().node_at(s) == Some(node));
@@ -167,7 +173,7 @@ impl fmt::Display for Quantity {
             Self::Orientation { s } => write!(f, "orientation at s = {s:.6}"),
             Self::BaseForce => f.write_str("base force"),
             Self::BaseMoment => f.write_str("base moment"),
-            Self::TipForce => f.write_str("tip force"),
+            Self::TipForce | Self::TipForceAlong { .. } => f.write_str("tip force"),
             Self::TipMoment => f.write_str("tip moment"),
             Self::SupportForce { s } => write!(f, "force of the support at s = {s:.6}"),
             Self::ElasticEnergy => f.write_str("elastic energy"),

@@ -25,8 +25,11 @@ mod arcs;
 pub mod bank;
 mod buckled;
 mod case;
+mod columns;
+mod critical;
 mod expected;
 mod heavy;
+mod lateral;
 mod planar;
 mod pose;
 mod setup;
@@ -38,6 +41,7 @@ mod tip_wrench;
 pub mod workloads;
 
 pub use case::{Answer, Case, CaseError, Outcome, Row, Start};
+pub use critical::{Branch, CriticalCase, CriticalLoad, Family};
 pub use expected::{Comparison, Expected, Quantity, Value};
 pub use setup::{Setup, Tip};
 
@@ -55,6 +59,11 @@ pub fn all() -> Vec<Case> {
         three_points::cases(),
     ]
     .concat()
+}
+
+/// Every case of critical loads.
+pub fn all_critical() -> Vec<CriticalCase> {
+    [columns::cases(), lateral::cases(), arcs::critical_cases()].concat()
 }
 
 /// The case of that name.

@@ -22,3 +22,21 @@ fn survey() {
         }
     }
 }
+#[test]
+fn critical() {
+    let names = std::env::var("CRIT").unwrap_or_default();
+    for case in strands_cases::all_critical().iter().filter(|case| names.split(',').any(|n| case.name.starts_with(n))) {
+        let n = std::env::var("N").ok().and_then(|t| t.parse().ok()).unwrap_or(case.elements);
+        for b in &case.branches {
+            let t = std::time::Instant::now();
+            match b.critical_loads(n, Order::Fourth) {
+                Err(strands_cases::CaseError::Solve(e)) => println!("   {}: {}: FAILED {:.1e} {:?}", case.name, b.label, e.nearest.report.residual, e.nearest.report.residual_history.iter().map(|r| format!("{r:.0e}")).collect::<Vec<_>>().join(" ")),
+                Err(e) => println!("   {}: {}: FAILED {e}", case.name, b.label),
+                Ok(f) => {
+                    let e: Vec<_> = f.iter().zip(&b.critical).map(|(f, c)| format!("{:.1e}{}", f.load / c - 1.0, if (f.load / c - 1.0).abs() > case.tolerance {"!!"} else {""})).collect();
+                    println!("   {}: {}: {e:?} idx {:?} found {} of {} {:?}", case.name, b.label, f.iter().map(|f| f.index).collect::<Vec<_>>(), f.len(), b.critical.len(), t.elapsed());
+                }
+            }
+        }
+    }
+}

@@ -47,6 +47,8 @@ const WARM: Plan = Plan { bend: Vec3::ZERO, drag: 0.0, lent: 1e-3, stride: 0.5, 
 const MOST_SLACK: f64 = 3.0;
 /// The least that is lent to an element, over `L³/EI`: were it any stiffer, round-off in its stiffness would decide the signs of the pivots.
 const LEAST_LENT: f64 = 1e-12;
+/// The least that is lent, over `L³/EI`, where the rod may be close to losing its stability: round-off in a stiffer rod would be magnified.
+const STEADY_LENT: f64 = 1e-7;
 /// What a step against the energy's fall takes: this much more drag, and at least this much.
 const MORE_DRAG: f64 = 4.0;
 const SOME_DRAG: f64 = 1.0;
@@ -279,20 +281,28 @@ pub(crate) fn nearest(
     let Workspace { record, nodal, simd, .. } = &mut *workspace;
     let mut outcome = Outcome::Stalled;
     let lend = WARM.lent / (1.0 + problem.load_size());
-    let mut lent = lend * MOST_SLACK;
+    let lent = |residual: f64| (lend * residual.min(MOST_SLACK)).max(STEADY_LENT);
+    // From close by little is lent from the first step on.
+    let first = nodal.linearise(problem, *simd, lent(MOST_SLACK), record);
+    let mut residual = first.map_or(f64::NAN, |distance| distance.residual());
     for _ in 0..settings.max_iterations {
-        if note(nodal.linearise(problem, *simd, lent, record), report).is_none() {
+        if note(nodal.linearise(problem, *simd, lent(residual), record), report).is_none() {
             outcome = Outcome::NotFinite;
             break;
         }
-        if report.residual <= settings.tolerance {
+        residual = report.residual;
+        report.factorisations += 1;
+        let solved = nodal.solve(*simd, 0.0).is_some();
+        if residual <= settings.tolerance {
+            // One step more costs little and takes what is left down to round-off.
+            if solved && nodal.step_size() <= WARM.stride {
+                nodal.take(problem, 1.0, record);
+            }
             finish(problem, record);
             outcome = Outcome::Converged;
             break;
         }
-        lent = (lend * report.residual.min(MOST_SLACK)).max(least_lent(problem));
-        report.factorisations += 1;
-        if nodal.solve(*simd, 0.0).is_none() {
+        if !solved {
             outcome = Outcome::Singular;
             break;
         }
