@@ -67,7 +67,10 @@ pub struct CriticalLoad {
 
 impl fmt::Debug for Branch {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        f.debug_struct("Branch").field("label", &self.label).field("critical", &self.critical).finish_non_exhaustive()
+        f.debug_struct("Branch")
+            .field("label", &self.label)
+            .field("critical", &self.critical)
+            .finish_non_exhaustive()
     }
 }
 
@@ -79,7 +82,7 @@ const CLOSE_ENOUGH: f64 = 1e-3;
 /// The loads beside the critical one at which the stiffness is taken, in these parts of it, ever nearer: between two modes the stiffness is
 /// infinite somewhere, and a polynomial through loads near to that misleads.
 const BESIDE: [f64; 4] = [-2.0, -1.0, 1.0, 2.0];
-const NEARER: [f64; 3] = [1e-2, 1e-3, 3e-4];
+const NEARER: [f64; 3] = [3e-3, 1e-3, 3e-4];
 /// The disturbing force, over `EI/L²`: large beside round-off, and so small that the rod answers in proportion.
 const DISTURBANCE: f64 = 1e-9;
 
@@ -103,7 +106,8 @@ impl Branch {
             while unstable > lost {
                 let (load, now) = follower.first_with_more(lost, below, above)?;
                 let index = follower.counts.then_some([lost, now]);
-                let load = if self.disturbed.is_some() { follower.where_stiffness_vanishes(load)? } else { load };
+                let load =
+                    if self.disturbed.is_some() { follower.where_stiffness_vanishes(load)? } else { load };
                 found.push(CriticalLoad { load, index });
                 lost = now;
             }
@@ -159,7 +163,12 @@ impl<'a> Follower<'a> {
     }
 
     /// The first load with more unstable ways than so many, and how many it has.
-    fn first_with_more(&mut self, lost: usize, mut below: f64, mut above: f64) -> Result<(f64, usize), CaseError> {
+    fn first_with_more(
+        &mut self,
+        lost: usize,
+        mut below: f64,
+        mut above: f64,
+    ) -> Result<(f64, usize), CaseError> {
         let close = if self.branch.disturbed.is_some() { CLOSE_ENOUGH } else { CLOSE };
         let mut now = lost;
         while above - below > close * above {
@@ -183,7 +192,7 @@ impl<'a> Follower<'a> {
         self.at(load, along * force)?;
         // So close to where it gives way a step more is worth it.
         let disturbed = self.at(load, along * force)?.poses[node].position;
-        // Back to where it was.
+        // Back to where it was: what is left of the disturbance would be seen at the next load.
         self.at(load, Vec3::ZERO)?;
         Ok(force / (disturbed - still).dot(along))
     }

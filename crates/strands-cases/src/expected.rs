@@ -156,7 +156,8 @@ impl Quantity {
             Self::TipForceAlong { along } => Value::Scalar(end.force.dot(along)),
             Self::TipMoment => Value::Vector(end.moment),
             Self::SupportForce { s } => {
-                let node = problem.supports().position(|(node, _)| problem.rod.mesh().node_at(s) == Some(node));
+                let node =
+                    problem.supports().position(|(node, _)| problem.rod.mesh().node_at(s) == Some(node));
                 Value::Vector(solution.reactions[node.unwrap_or_else(|| panic!("nothing at {s}"))].force)
             }
             Self::ElasticEnergy => Value::Scalar(solution.energy.elastic),

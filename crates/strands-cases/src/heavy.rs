@@ -53,7 +53,7 @@ fn catenary_limit() -> Case {
     Case {
         name: "catenary-limit".into(),
         title: "A heavy wire between two clamps that is nearly a catenary".into(),
-        elements: 2000,
+        elements: 2400,
         ..between_clamps(|stiffness| stiffness < STIFF)
     }
 }
@@ -131,7 +131,7 @@ fn hanging() -> Case {
 }
 
 /// The bending stiffness of what should have none, over `w L³`. Between pins the shape is off by as much.
-const HARDLY_STIFF: f64 = 4e-8;
+const HARDLY_STIFF: f64 = 5e-8;
 
 fn catenary() -> Case {
     let table = Table::read(include_str!("../data/elastic_catenary.csv"));
@@ -156,7 +156,7 @@ fn catenary() -> Case {
                 .held(0.0, start)
                 .held(length, Support::pinned(far)),
             start: Start::Cold,
-            answers: vec![Answer::stable(expected)],
+            answers: vec![Answer::new(expected)],
         }
     });
     Case {
@@ -164,7 +164,7 @@ fn catenary() -> Case {
         title: "A wire that stretches and hardly resists bending, hung between two pins".into(),
         source: "Irvine, Cable Structures, 1981, sec. 2.3: closed form without bending stiffness",
         tolerance: 1e-6,
-        elements: 4000,
+        elements: 3000,
         rows: rows.collect(),
         remark: None,
     }

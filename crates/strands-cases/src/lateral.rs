@@ -2,11 +2,11 @@
 //!
 //! The beam lies along x, and its load pulls along −z.
 
+use crate::Setup;
 use crate::columns::{branch, known};
 use crate::critical::{Branch, CriticalCase};
 use crate::planar::{along_x, straight};
 use crate::table::Table;
-use crate::Setup;
 use strands::math::{Pose, Vec3};
 use strands::rod::{Law, Profile, RodDescription};
 use strands::statics::Support;
@@ -55,18 +55,20 @@ fn cantilever() -> CriticalCase {
 fn fork() -> CriticalCase {
     // Thin, so that it hardly deflects before; the figures are a textbook's, to their last digit.
     const LATERAL: f64 = 1e-4;
-    let branches = [("a force in its middle", true, 16.94), ("its weight", false, 28.3)].map(|(what, in_middle, load)| {
-        let description = beam(1.0, LATERAL, LATERAL);
-        branch(format!("between forks, {what}"), vec![load], (0.4, Vec3::Y), move |part| {
-            let far = Pose { position: Vec3::X, ..along_x() };
-            let fork = [false, false, true, true, true, true];
-            let setup = Setup::cantilever(description.clone())
-                .held(0.0, Support::of(fork, along_x()))
-                .held(1.0, Support::of(fork, far).sliding_along(Vec3::X));
-            let load = Vec3::Z * (-part * LATERAL);
-            if in_middle { setup.with_force(0.5, load) } else { setup.with_weight(load) }
-        })
-    });
+    let branches = [("a force in its middle", true, 16.94), ("its weight", false, 28.3)].map(
+        |(what, in_middle, load)| {
+            let description = beam(1.0, LATERAL, LATERAL);
+            branch(format!("between forks, {what}"), vec![load], (0.4, Vec3::Y), move |part| {
+                let far = Pose { position: Vec3::X, ..along_x() };
+                let fork = [false, false, true, true, true, true];
+                let setup = Setup::cantilever(description.clone())
+                    .held(0.0, Support::of(fork, along_x()))
+                    .held(1.0, Support::of(fork, far).sliding_along(Vec3::X));
+                let load = Vec3::Z * (-part * LATERAL);
+                if in_middle { setup.with_force(0.5, load) } else { setup.with_weight(load) }
+            })
+        },
+    );
     CriticalCase {
         name: "lateral-torsional-fork".into(),
         title: "The load under which a beam between two forks tips over to the side".into(),
@@ -96,6 +98,8 @@ fn ribbon() -> CriticalCase {
         tolerance: 1e-3,
         elements: 100,
         branches: branches.collect(),
-        remark: Some("Romero et al. measure within a percent, and ribbons that are not narrow differ by more."),
+        remark: Some(
+            "Romero et al. measure within a percent, and ribbons that are not narrow differ by more.",
+        ),
     }
 }

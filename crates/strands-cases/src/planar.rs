@@ -54,7 +54,12 @@ pub(crate) fn force(x: f64, y: f64) -> Wrench {
     Wrench::new(Vec3::ZERO, Vec3::new(x, y, 0.0))
 }
 
-pub(crate) fn row(label: String, description: RodDescription, wrench: Wrench, expected: Vec<Expected>) -> Row {
+pub(crate) fn row(
+    label: String,
+    description: RodDescription,
+    wrench: Wrench,
+    expected: Vec<Expected>,
+) -> Row {
     Row {
         label,
         setup: Setup::cantilever(description).with_tip(Tip::Wrench { wrench, frame: Frame::World }),

@@ -60,8 +60,8 @@ fn answer(record: &Record<'_>, places: [f64; 3], length: f64) -> Answer {
         energy(Quantity::ElasticEnergy, energies[0]),
         energy(Quantity::LoadEnergy, energies[1]),
     ];
-    expected.extend(forces.map(|(s, force)| {
-        Expected::vector(Quantity::SupportForce { s }, force).measured_by(largest)
-    }));
+    expected.extend(
+        forces.map(|(s, force)| Expected::vector(Quantity::SupportForce { s }, force).measured_by(largest)),
+    );
     Answer { expected, index: record.count("index") }
 }
