@@ -47,7 +47,7 @@ const WARM: Plan = Plan { bend: Vec3::ZERO, drag: 0.0, lent: 1e-3, stride: 0.5, 
 const MOST_SLACK: f64 = 3.0;
 /// The least that is lent to an element, over `L³/EI`: were it any stiffer, round-off in its stiffness would decide the signs of the pivots.
 const LEAST_LENT: f64 = 1e-12;
-/// The least that is lent, over `L³/EI`, where the rod may be close to losing its stability: round-off in a stiffer rod would be magnified.
+/// The least that is lent to all, over `L³/EI` and one over the [`strength`]: close to where the rod loses its stability round-off is magnified too.
 const STEADY_LENT: f64 = 1e-7;
 /// What a step against the energy's fall takes: this much more drag, and at least this much.
 const MORE_DRAG: f64 = 4.0;
@@ -280,8 +280,9 @@ pub(crate) fn nearest(
 ) -> Search {
     let Workspace { record, nodal, simd, .. } = &mut *workspace;
     let mut outcome = Outcome::Stalled;
-    let lend = WARM.lent / (1.0 + problem.load_size());
-    let lent = |residual: f64| (lend * residual.min(MOST_SLACK)).max(STEADY_LENT);
+    let strength = strength(problem, record);
+    let lent =
+        |residual: f64| (WARM.lent / strength * residual.min(MOST_SLACK)).max(least_lent(problem, strength));
     // From close by little is lent from the first step on.
     let first = nodal.linearise(problem, *simd, lent(MOST_SLACK), record);
     let mut residual = first.map_or(f64::NAN, |distance| distance.residual());
@@ -413,7 +414,7 @@ fn relax(
             last = f64::INFINITY;
             continue;
         }
-        lent = (lend * residual.min(MOST_SLACK)).max(least_lent(problem));
+        lent = (lend * residual.min(MOST_SLACK)).max(least_lent(problem, strength));
         loop {
             report.factorisations += 1;
             match nodal.solve(simd, drag) {
@@ -445,8 +446,8 @@ fn relax(
 }
 
 /// The least that is lent to all elements together.
-fn least_lent(problem: &Problem) -> f64 {
-    LEAST_LENT * problem.rod.elements() as f64
+fn least_lent(problem: &Problem, strength: f64) -> f64 {
+    (LEAST_LENT * problem.rod.elements() as f64).max(STEADY_LENT / strength)
 }
 
 /// Finds the way off an unstable equilibrium: the step that a small load makes against hardly more drag than holds the rod there, which is
