@@ -17,6 +17,8 @@
 //! Planar cases lie in the plane of x and y with the base at the origin and its tangent along x. A problem with a prescribed tip pose has many
 //! equilibria, and a solver may return any of them; [`Answer::index`] says how stable each is.
 //!
+//! A [`CriticalCase`] has families of problems that a load leads through, and the loads at which their primary branch loses its stability.
+//!
 //! [`bank`] has rods drawn at random, to find what a solver cannot do.
 //!
 //! [`workloads`] are long runs of problems, each next to the one before, as an interactive program has them.

@@ -136,12 +136,17 @@ impl Setup {
                 Some(0) => start = support.clone(),
                 Some(node) if node == rod.elements() => end = support.clone(),
                 Some(node) => between.push((node, support.clone())),
-                None => {
-                    return Err(RodError::OutsideRod { what: "a support", s: *place, length: rod.length() });
-                }
+                None => return Err(no_node(rod, *place)),
             }
         }
         (problem.loads, problem.start, problem.end, problem.between) = (loads, start, end, between);
         Ok(())
     }
+}
+
+/// There is no node where something should hold the rod.
+fn no_node(rod: &Rod, s: f64) -> RodError {
+    let distance = |node: &f64| (node - s).abs();
+    let nearest = rod.mesh().nodes().iter().copied().min_by(|a, b| distance(a).total_cmp(&distance(b)));
+    RodError::NotANode { what: "a support", s, nearest: nearest.unwrap_or(0.0) }
 }

@@ -47,7 +47,8 @@ const WARM: Plan = Plan { bend: Vec3::ZERO, drag: 0.0, lent: 1e-3, stride: 0.5, 
 const MOST_SLACK: f64 = 3.0;
 /// The least that is lent to an element, over `L³/EI`: were it any stiffer, round-off in its stiffness would decide the signs of the pivots.
 const LEAST_LENT: f64 = 1e-12;
-/// The least that is lent to all, over `L³/EI` and one over the [`strength`]: close to where the rod loses its stability round-off is magnified too.
+/// The least that is lent to all, over `L³/EI`, by Newton's method alone, and elsewhere over the [`strength`]: close to where the rod loses its
+/// stability round-off is magnified.
 const STEADY_LENT: f64 = 1e-7;
 /// What a step against the energy's fall takes: this much more drag, and at least this much.
 const MORE_DRAG: f64 = 4.0;
@@ -280,9 +281,8 @@ pub(crate) fn nearest(
 ) -> Search {
     let Workspace { record, nodal, simd, .. } = &mut *workspace;
     let mut outcome = Outcome::Stalled;
-    let strength = strength(problem, record);
-    let lent =
-        |residual: f64| (WARM.lent / strength * residual.min(MOST_SLACK)).max(least_lent(problem, strength));
+    let lend = WARM.lent / (1.0 + problem.load_size());
+    let lent = |residual: f64| (lend * residual.min(MOST_SLACK)).max(STEADY_LENT);
     // From close by little is lent from the first step on.
     let first = nodal.linearise(problem, *simd, lent(MOST_SLACK), record);
     let mut residual = first.map_or(f64::NAN, |distance| distance.residual());
