@@ -1,10 +1,9 @@
 //! A named problem: rows of one kind, each a rod with what acts on it and its reference answers.
 
-use crate::{Comparison, Expected};
-use strands::load::{DistributedLoad, Frame, NodalLoads, PointLoad};
-use strands::math::{Pose, Vec3, Wrench};
-use strands::rod::{Order, Rod, RodDescription, RodError};
-use strands::statics::{Guess, Problem, Settings, Solution, SolveFailure, Support, Workspace, solve};
+use crate::{Comparison, Expected, Setup};
+use strands::math::{Pose, Wrench};
+use strands::rod::{Order, RodError};
+use strands::statics::{Guess, Problem, Settings, Solution, SolveFailure, Workspace, solve};
 use thiserror::Error;
 
 /// A named problem with reference answers.
@@ -37,31 +36,6 @@ pub struct Row {
     pub start: Start,
     /// The equilibria that are known; a solution may be any of them.
     pub answers: Vec<Answer>,
-}
-
-/// A rod clamped at its base.
-#[derive(Clone, Debug)]
-pub struct Setup {
-    /// The rod.
-    pub description: RodDescription,
-    /// Dead force per length all along it, N/m, world axes.
-    pub force_per_length: Vec3,
-    /// What is given at its tip.
-    pub tip: Tip,
-}
-
-/// What is given at the tip.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub enum Tip {
-    /// A force and a moment.
-    Wrench {
-        /// Moment (N·m) and force (N).
-        wrench: Wrench,
-        /// Dead or following.
-        frame: Frame,
-    },
-    /// The place and orientation.
-    Pose(Pose),
 }
 
 /// Where a solver starts.
@@ -180,50 +154,15 @@ impl Row {
     }
 }
 
-impl Setup {
-    /// The problem on a mesh with nodes at `places`.
-    ///
-    /// # Errors
-    /// Where there are fewer elements than stretches between the places.
-    pub fn problem(&self, elements: usize, order: Order, places: &[f64]) -> Result<Problem, RodError> {
-        let rod = Rod::with_elements(self.description.clone(), elements, places, order)?;
-        let weight = self.weight(&rod)?;
-        let mut problem = Problem::cantilever(rod);
-        set_tip(&mut problem, weight, self.tip)?;
-        Ok(problem)
-    }
-
-    /// The dead force all along a rod of this description.
-    pub(crate) fn weight(&self, rod: &Rod) -> Result<NodalLoads, RodError> {
-        let weight = DistributedLoad {
-            from: 0.0,
-            to: rod.length(),
-            per_length: Wrench::new(Vec3::ZERO, self.force_per_length),
-            frame: Frame::World,
-        };
-        NodalLoads::none(rod).with_distributed(rod, &weight)
-    }
-}
-
-/// Gives a problem what is given at its tip, beside its weight.
-pub(crate) fn set_tip(problem: &mut Problem, weight: NodalLoads, tip: Tip) -> Result<(), RodError> {
-    problem.loads = match tip {
-        Tip::Pose(pose) => {
-            problem.end = Support::clamped(pose);
-            weight
-        }
-        Tip::Wrench { wrench, frame } => {
-            let load = PointLoad { at: problem.rod.length(), wrench, frame };
-            weight.with_point(&problem.rod, &load)?
-        }
-    };
-    Ok(())
-}
-
 impl Answer {
     /// An equilibrium of which the stability is not known.
     pub fn new(expected: Vec<Expected>) -> Self {
         Self { expected, index: None }
+    }
+
+    /// A stable one.
+    pub fn stable(expected: Vec<Expected>) -> Self {
+        Self { expected, index: Some(0) }
     }
 }
 

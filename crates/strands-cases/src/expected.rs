@@ -30,8 +30,18 @@ pub enum Quantity {
     BaseMoment,
     /// The internal force at the end, N, world axes: what acts on the tip there.
     TipForce,
+    /// The part of that force along a direction, N.
+    TipForceAlong {
+        /// The direction, of length one, world axes.
+        along: Vec3,
+    },
     /// The moment of the support at the end, N·m, world axes.
     TipMoment,
+    /// The force of the support at `s`, N, world axes.
+    SupportForce {
+        /// Where along the rod, m.
+        s: f64,
+    },
     /// The stored energy, J.
     ElasticEnergy,
     /// The energy of the dead forces, minus force times position, J.
@@ -107,9 +117,10 @@ impl Expected {
     /// Where along the rod it is taken, for quantities that need a node there.
     pub fn place(&self) -> Option<f64> {
         match self.quantity {
-            Quantity::Position { s } | Quantity::Deflection { s, .. } | Quantity::Orientation { s } => {
-                Some(s)
-            }
+            Quantity::Position { s }
+            | Quantity::Deflection { s, .. }
+            | Quantity::Orientation { s }
+            | Quantity::SupportForce { s } => Some(s),
             _ => None,
         }
     }
@@ -142,7 +153,13 @@ impl Quantity {
             Self::BaseForce => Value::Vector(-start.force),
             Self::BaseMoment => Value::Vector(-start.moment),
             Self::TipForce => Value::Vector(end.force),
+            Self::TipForceAlong { along } => Value::Scalar(end.force.dot(along)),
             Self::TipMoment => Value::Vector(end.moment),
+            Self::SupportForce { s } => {
+                let node =
+                    problem.supports().position(|(node, _)| problem.rod.mesh().node_at(s) == Some(node));
+                Value::Vector(solution.reactions[node.unwrap_or_else(|| panic!("nothing at {s}"))].force)
+            }
             Self::ElasticEnergy => Value::Scalar(solution.energy.elastic),
             Self::LoadEnergy => Value::Scalar(solution.energy.load),
         }
@@ -157,8 +174,9 @@ impl fmt::Display for Quantity {
             Self::Orientation { s } => write!(f, "orientation at s = {s:.6}"),
             Self::BaseForce => f.write_str("base force"),
             Self::BaseMoment => f.write_str("base moment"),
-            Self::TipForce => f.write_str("tip force"),
+            Self::TipForce | Self::TipForceAlong { .. } => f.write_str("tip force"),
             Self::TipMoment => f.write_str("tip moment"),
+            Self::SupportForce { s } => write!(f, "force of the support at s = {s:.6}"),
             Self::ElasticEnergy => f.write_str("elastic energy"),
             Self::LoadEnergy => f.write_str("load energy"),
         }

@@ -17,27 +17,55 @@
 //! Planar cases lie in the plane of x and y with the base at the origin and its tangent along x. A problem with a prescribed tip pose has many
 //! equilibria, and a solver may return any of them; [`Answer::index`] says how stable each is.
 //!
+//! A [`CriticalCase`] has families of problems that a load leads through, and the loads at which their primary branch loses its stability.
+//!
 //! [`bank`] has rods drawn at random, to find what a solver cannot do.
 //!
 //! [`workloads`] are long runs of problems, each next to the one before, as an interactive program has them.
 
+mod arcs;
 pub mod bank;
+mod buckled;
 mod case;
+mod columns;
+mod critical;
 mod expected;
+mod heavy;
+mod lateral;
 mod planar;
 mod pose;
+mod setup;
 mod spatial;
 mod spring;
 mod table;
+mod three_points;
 mod tip_wrench;
 pub mod workloads;
 
-pub use case::{Answer, Case, CaseError, Outcome, Row, Setup, Start, Tip};
+pub use case::{Answer, Case, CaseError, Outcome, Row, Start};
+pub use critical::{Branch, CriticalCase, CriticalLoad, Family};
 pub use expected::{Comparison, Expected, Quantity, Value};
+pub use setup::{Setup, Tip};
 
 /// Every case.
 pub fn all() -> Vec<Case> {
-    [planar::cases(), spatial::cases(), spring::cases(), tip_wrench::cases(), pose::cases()].concat()
+    [
+        planar::cases(),
+        buckled::cases(),
+        heavy::cases(),
+        arcs::cases(),
+        spatial::cases(),
+        spring::cases(),
+        tip_wrench::cases(),
+        pose::cases(),
+        three_points::cases(),
+    ]
+    .concat()
+}
+
+/// Every case of critical loads.
+pub fn all_critical() -> Vec<CriticalCase> {
+    [columns::cases(), lateral::cases(), arcs::critical_cases()].concat()
 }
 
 /// The case of that name.

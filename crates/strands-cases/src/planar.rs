@@ -12,6 +12,9 @@ use strands::rod::{Kinematics, Law, Profile, RestShape, RodDescription, Stiffnes
 /// How close converged solutions come to figures that are good to at least nine digits.
 const TOLERANCE: f64 = 1e-6;
 
+/// How many times as stiff across the plane a rod is that must not leave it.
+const ACROSS: f64 = 30.0;
+
 pub(crate) fn cases() -> Vec<Case> {
     vec![dead_load(), follower_load(), end_moment(), heavy_cantilever(), reissner(), timoshenko()]
 }
@@ -38,36 +41,49 @@ pub(crate) fn straight(length: f64, bending: f64, stretch: Option<[f64; 2]>) -> 
     }
 }
 
-fn force(x: f64, y: f64) -> Wrench {
+/// The same rod, so stiff against bending across the plane and against torsion that it stays in the plane.
+pub(crate) fn kept_in_plane(mut description: RodDescription) -> RodDescription {
+    if let Profile::Given { law: Law::Diagonal(stiffness), .. } = &mut description.profile {
+        stiffness.bending[0] *= ACROSS;
+        stiffness.torsion *= ACROSS;
+    }
+    description
+}
+
+pub(crate) fn force(x: f64, y: f64) -> Wrench {
     Wrench::new(Vec3::ZERO, Vec3::new(x, y, 0.0))
 }
 
-fn row(label: String, description: RodDescription, wrench: Wrench, expected: Vec<Expected>) -> Row {
-    let tip = Tip::Wrench { wrench, frame: Frame::World };
+pub(crate) fn row(
+    label: String,
+    description: RodDescription,
+    wrench: Wrench,
+    expected: Vec<Expected>,
+) -> Row {
     Row {
         label,
-        setup: Setup { description, force_per_length: Vec3::ZERO, tip },
+        setup: Setup::cantilever(description).with_tip(Tip::Wrench { wrench, frame: Frame::World }),
         start: Start::Cold,
         answers: vec![Answer::new(expected)],
     }
 }
 
 /// The tip's place and orientation.
-fn tip(record: &Record<'_>, length: f64, angle: f64) -> [Expected; 2] {
+pub(crate) fn tip(record: &Record<'_>, length: f64, angle: f64) -> [Expected; 2] {
     let at = Vec3::new(record.number("x"), record.number("y"), 0.0);
     [Expected::position(length, at, length), Expected::orientation(length, turned(angle))]
 }
 
 /// The orientation of a frame that is turned by an angle from the base's.
-fn turned(angle: f64) -> Quat {
+pub(crate) fn turned(angle: f64) -> Quat {
     Quat::from_matrix(Quat::from_rotation_vector(Vec3::Z * angle).to_matrix() * along_x().rotation)
 }
 
-fn moment(value: f64) -> Expected {
+pub(crate) fn moment(value: f64) -> Expected {
     Expected::vector(Quantity::BaseMoment, Vec3::Z * value)
 }
 
-fn energy(record: &Record<'_>) -> Expected {
+pub(crate) fn energy(record: &Record<'_>) -> Expected {
     Expected::scalar(Quantity::ElasticEnergy, record.number("energy"))
 }
 
@@ -101,7 +117,8 @@ fn follower_load() -> Case {
         let label = format!("P L²/EI = {}", record.number("alpha"));
         let mut row = row(label, straight(0.8, 0.05, None), force(0.0, 0.0), expected);
         // The left normal of the tip is its d1.
-        row.setup.tip = Tip::Wrench { wrench: Wrench::new(Vec3::ZERO, Vec3::X * load), frame: Frame::Body };
+        let wrench = Wrench::new(Vec3::ZERO, Vec3::X * load);
+        row.setup = row.setup.with_tip(Tip::Wrench { wrench, frame: Frame::Body });
         row
     });
     Case {

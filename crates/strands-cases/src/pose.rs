@@ -57,7 +57,7 @@ fn random(kinematics: &str, record: &Record<'_>, equilibria: &Table) -> Case {
     let name = record.text("name");
     let tip = Pose::from_parts(record.vector("t"), record.quaternion("q"));
     let setup =
-        Setup { description: description(record), force_per_length: record.vector("w"), tip: Tip::Pose(tip) };
+        Setup::cantilever(description(record)).with_weight(record.vector("w")).with_tip(Tip::Pose(tip));
     let length = setup.description.length;
     let answers = equilibria
         .records()

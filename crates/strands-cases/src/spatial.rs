@@ -50,7 +50,7 @@ fn bend_45() -> Case {
         ];
         Row {
             label: format!("variant {variant}, F = {}", force.z),
-            setup: Setup { description, force_per_length: Vec3::ZERO, tip: dead(Vec3::ZERO, force) },
+            setup: Setup::cantilever(description).with_tip(dead(Vec3::ZERO, force)),
             start: Start::Cold,
             answers: vec![Answer::new(expected)],
         }
@@ -84,11 +84,8 @@ fn helix_roll_up(kinematics: &'static str) -> Case {
         ];
         Row {
             label: format!("λ = {lambda}"),
-            setup: Setup {
-                description: straight(LENGTH, 100.0, stretch),
-                force_per_length: Vec3::ZERO,
-                tip: dead(Vec3::Z * (200.0 * PI * lambda), Vec3::Z * (50.0 * lambda)),
-            },
+            setup: Setup::cantilever(straight(LENGTH, 100.0, stretch))
+                .with_tip(dead(Vec3::Z * (200.0 * PI * lambda), Vec3::Z * (50.0 * lambda))),
             start: Start::PreviousRow,
             answers: vec![Answer::new(expected)],
         }
@@ -114,11 +111,7 @@ fn unit_load(description: &RodDescription, rest_tip: Vec3, force: Vec3, per_unit
     let expected = Expected::position(length, tip, per_unit.norm() * PART);
     Row {
         label: format!("force along ({}, {}, {})", force.x, force.y, force.z),
-        setup: Setup {
-            description: description.clone(),
-            force_per_length: Vec3::ZERO,
-            tip: dead(Vec3::ZERO, force * PART),
-        },
+        setup: Setup::cantilever(description.clone()).with_tip(dead(Vec3::ZERO, force * PART)),
         start: Start::Cold,
         answers: vec![Answer::new(vec![expected])],
     }

@@ -68,6 +68,7 @@ fn spring(record: &Record<'_>, given: &str) -> Row {
     let kept_from_turning = record.text("mode") == "no_axial_rotation";
     // What is wrong at the tip is exp(L/ℓ) times as wrong at the base, ℓ² = EI/F where the spring is pulled: so near must the start be.
     let short = 0.01 * (-length * (number("force").max(0.0) / BENDING).sqrt()).exp();
+    let tip = if given == "wrench" { Tip::Wrench { wrench, frame: Frame::World } } else { Tip::Pose(end) };
     Row {
         label: format!(
             "{} turns at {}°, stretched by {}, {}",
@@ -76,11 +77,7 @@ fn spring(record: &Record<'_>, given: &str) -> Row {
             number("stretch"),
             record.text("mode").replace('_', " ")
         ),
-        setup: Setup {
-            description,
-            force_per_length: Vec3::ZERO,
-            tip: if given == "wrench" { Tip::Wrench { wrench, frame: Frame::World } } else { Tip::Pose(end) },
-        },
+        setup: Setup::cantilever(description).with_tip(tip),
         start: rest.stretched(length, (1.0 - short) * number("stretch"), torsion, kept_from_turning),
         answers: vec![Answer::new(expected)],
     }

@@ -42,6 +42,11 @@ impl Record<'_> {
         cell.parse().unwrap_or_else(|_| panic!("row {}, {column}: {cell:?} is not a number", self.row))
     }
 
+    /// A number, or nothing where the cell is empty.
+    pub fn figure(&self, column: &str) -> Option<f64> {
+        (!self.text(column).is_empty()).then(|| self.number(column))
+    }
+
     /// A whole number, or nothing where the cell is empty.
     pub fn count(&self, column: &str) -> Option<usize> {
         let cell = self.text(column);

@@ -18,11 +18,10 @@ pub(crate) fn cases() -> Vec<Case> {
 
 fn random(record: &Record<'_>, equilibria: &Table) -> Case {
     let name = record.text("name");
-    let setup = Setup {
-        description: description(record),
-        force_per_length: record.vector("w"),
-        tip: Tip::Wrench { wrench: Wrench::new(record.vector("m"), record.vector("f")), frame: Frame::World },
-    };
+    let wrench = Wrench::new(record.vector("m"), record.vector("f"));
+    let setup = Setup::cantilever(description(record))
+        .with_weight(record.vector("w"))
+        .with_tip(Tip::Wrench { wrench, frame: Frame::World });
     let length = setup.description.length;
     let answers =
         equilibria.records().filter(|equilibrium| equilibrium.text("name") == name).map(|record| Answer {
@@ -69,7 +68,7 @@ fn steel_tip_wrench() -> Case {
         elements: 100,
         rows: vec![Row {
             label: "F = (1, −0.5, −0.3) N, M = (0.1, −0.05, 0.08) N·m".into(),
-            setup: Setup { tip: Tip::Wrench { wrench, frame: Frame::World }, ..rod },
+            setup: rod.with_tip(Tip::Wrench { wrench, frame: Frame::World }),
             start: Start::Cold,
             answers: vec![Answer::new(vec![
                 Expected::position(length, tip, length),

@@ -4,7 +4,7 @@ use strands::math::{Pose, Vec3, Wrench};
 use strands::rod::Order;
 use strands::statics::{Guess, Settings, Workspace, solve};
 use strands_cases::workloads;
-use strands_cases::{Answer, Quantity, Tip, Value, all};
+use strands_cases::{Answer, Quantity, Value, all};
 
 fn vector(answer: &Answer, quantity: Quantity) -> Vec3 {
     let found = answer.expected.iter().find(|expected| expected.quantity == quantity);
@@ -26,10 +26,10 @@ fn every_known_equilibrium_has_its_known_index() {
     let settings = Settings { restart_from_rest: false, max_halvings: 0, ..Settings::default() };
     let mut workspace = Workspace::default();
     let (mut checked, mut by_index) = (0, [0; 8]);
-    for case in all() {
+    for case in all().iter().filter(|case| case.name.starts_with("pose-")) {
         let row = &case.rows[0];
-        let Tip::Pose(tip) = row.setup.tip else { continue };
         let problem = row.problem(400, Order::Fourth).expect("a rod");
+        let tip = problem.end.pose;
         for (k, answer) in row.answers.iter().enumerate() {
             let Some(index) = answer.index else { continue };
             let solution = solve(&problem, &settings, Some(&guess(answer, tip)), &mut workspace)

@@ -127,3 +127,44 @@ fn held_tips_stay_on_the_stable_branch_and_match_frame_by_frame() {
         }
     }
 }
+
+#[test]
+fn buckled_rods_match_eulers_elastica() {
+    // So close to the buckling load that a residual of 1e-10 shows.
+    check("buckled-column", 1e-12);
+    check("buckled-pinned-distance", 1e-11);
+    check("buckled-pinned-load", 1e-12);
+    check("buckled-clamped-distance", 1e-11);
+    check("buckled-clamped-load", 1e-12);
+}
+
+#[test]
+fn the_cantilever_test_matches_its_master_curve() {
+    check("romero-cantilever", 1e-11);
+}
+
+#[test]
+fn heavy_rods_between_clamps_match_down_to_the_catenary() {
+    check("heavy-clamped", 1e-11);
+    check("catenary-limit", 1e-10);
+}
+
+#[test]
+fn wires_that_stretch_hang_as_irvine_says() {
+    check("hanging-rod", 1e-11);
+    check("elastic-catenary", 1e-10);
+}
+
+#[test]
+fn rings_and_arches_match() {
+    check("pinched-ring", 1e-11);
+    check("deep-arch", 1e-10);
+    check("symmetric-arch", 1e-11);
+}
+
+#[test]
+fn three_points_are_held_cold_at_a_known_stable_equilibrium() {
+    for number in [1, 3, 5, 7, 9] {
+        check(&format!("three-points-{number:02}"), 1e-11);
+    }
+}

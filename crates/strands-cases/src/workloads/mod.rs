@@ -9,7 +9,6 @@ mod rods;
 pub use motion::Motion;
 pub(crate) use rods::{steel, suture};
 
-use crate::case::set_tip;
 use crate::table::Table;
 use crate::{Answer, CaseError, Comparison, Expected, Quantity, Setup, Tip};
 use strands::rod::{Order, RodError};
@@ -92,8 +91,7 @@ impl Workload {
     /// # Errors
     /// Where there are fewer than two elements.
     pub fn problem(&self, elements: usize, order: Order) -> Result<Problem, RodError> {
-        let setup = Setup { tip: self.tip(0), ..self.setup.clone() };
-        setup.problem(elements, order, &[0.5 * setup.description.length])
+        self.frame(0).problem(elements, order, &[0.5 * self.setup.description.length])
     }
 
     /// What is given at the tip in a frame; frame 0 is where the run begins.
@@ -106,8 +104,12 @@ impl Workload {
     /// # Errors
     /// Where the problem is of another rod.
     pub fn set_frame(&self, problem: &mut Problem, frame: usize) -> Result<(), RodError> {
-        let weight = self.setup.weight(&problem.rod)?;
-        set_tip(problem, weight, self.tip(frame))
+        self.frame(frame).apply(problem)
+    }
+
+    /// The rod in a frame.
+    fn frame(&self, frame: usize) -> Setup {
+        self.setup.clone().with_tip(self.tip(frame))
     }
 
     /// Finds the equilibrium before the first frame. Where the tip is held this is the stable one of the first mode of buckling: it is found

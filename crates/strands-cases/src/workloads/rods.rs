@@ -1,9 +1,8 @@
 //! The rods of the workloads: round, straight, along z from the origin, with gravity along x.
 
-use crate::{Setup, Tip};
+use crate::Setup;
 use core::f64::consts::PI;
-use strands::load::Frame;
-use strands::math::{Pose, Vec3, Wrench};
+use strands::math::{Pose, Vec3};
 use strands::rod::{Kinematics, Law, Profile, RestShape, RodDescription, Stiffness};
 
 /// Gravity, m/s².
@@ -29,19 +28,16 @@ fn round(length: f64, radius: f64, [youngs, shear]: [f64; 2], density: f64) -> S
         axial: youngs * area,
         shear: [shear * area; 2],
     };
-    Setup {
-        description: RodDescription {
-            length,
-            kinematics: Kinematics::Cosserat,
-            profile: Profile::Given {
-                law: Law::Diagonal(stiffness),
-                mass_per_length: density * area,
-                half_extent: [radius; 2],
-            },
-            rest: RestShape::default(),
-            base: Pose::IDENTITY,
+    let description = RodDescription {
+        length,
+        kinematics: Kinematics::Cosserat,
+        profile: Profile::Given {
+            law: Law::Diagonal(stiffness),
+            mass_per_length: density * area,
+            half_extent: [radius; 2],
         },
-        force_per_length: Vec3::X * (density * area * GRAVITY),
-        tip: Tip::Wrench { wrench: Wrench::ZERO, frame: Frame::World },
-    }
+        rest: RestShape::default(),
+        base: Pose::IDENTITY,
+    };
+    Setup::cantilever(description).with_weight(Vec3::X * (density * area * GRAVITY))
 }

@@ -47,6 +47,9 @@ const WARM: Plan = Plan { bend: Vec3::ZERO, drag: 0.0, lent: 1e-3, stride: 0.5, 
 const MOST_SLACK: f64 = 3.0;
 /// The least that is lent to an element, over `L³/EI`: were it any stiffer, round-off in its stiffness would decide the signs of the pivots.
 const LEAST_LENT: f64 = 1e-12;
+/// The least that is lent to all, over `L³/EI`, by Newton's method alone, and elsewhere over the [`strength`]: close to where the rod loses its
+/// stability round-off is magnified.
+const STEADY_LENT: f64 = 1e-7;
 /// What a step against the energy's fall takes: this much more drag, and at least this much.
 const MORE_DRAG: f64 = 4.0;
 const SOME_DRAG: f64 = 1.0;
@@ -251,12 +254,28 @@ pub(crate) fn from_guess(
             // What its supports between bear is not in the guess.
             return from_rest(problem, settings, workspace, report);
         }
-        let end = Section { pose: guess.pose, wrench: guess.wrench };
-        march(workspace.simd, &problem.rod, Scheme::Element, &problem.loads, end, &mut workspace.record);
+        march_from(guess, problem, workspace);
         report.sweeps += 1;
     }
     let outcome = from_state(problem, settings, workspace, report);
     found(problem, outcome, workspace)
+}
+
+/// Puts a guess's state into the workspace where it is not there yet, or the rod at rest, between the supports as they are now.
+pub(crate) fn put_state(problem: &Problem, guess: Option<&Guess>, workspace: &mut Workspace) {
+    let Some(guess) = guess else {
+        return lay_out(problem, |_| Vec3::ZERO, &mut workspace.record);
+    };
+    if !holds_state_of(guess, problem, &workspace.record) {
+        march_from(guess, problem, workspace);
+    }
+    put_between_supports(problem, &mut workspace.record.poses);
+}
+
+/// Puts the state into the workspace that a march from a guess makes.
+fn march_from(guess: &Guess, problem: &Problem, workspace: &mut Workspace) {
+    let end = Section { pose: guess.pose, wrench: guess.wrench };
+    march(workspace.simd, &problem.rod, Scheme::Element, &problem.loads, end, &mut workspace.record);
 }
 
 /// Moves on from the state in the workspace, put between the supports where they are now.
@@ -304,20 +323,28 @@ pub(crate) fn nearest(
     let Workspace { record, nodal, simd, .. } = &mut *workspace;
     let mut outcome = Outcome::Stalled;
     let lend = WARM.lent / (1.0 + problem.load_size());
-    let mut lent = lend * MOST_SLACK;
+    let lent = |residual: f64| (lend * residual.min(MOST_SLACK)).max(STEADY_LENT);
+    // From close by little is lent from the first step on.
+    let first = nodal.linearise(problem, *simd, lent(MOST_SLACK), record);
+    let mut residual = first.map_or(f64::NAN, |distance| distance.residual());
     for _ in 0..settings.max_iterations {
-        if note(nodal.linearise(problem, *simd, lent, record), report).is_none() {
+        if note(nodal.linearise(problem, *simd, lent(residual), record), report).is_none() {
             outcome = Outcome::NotFinite;
             break;
         }
-        if report.residual <= settings.tolerance {
+        residual = report.residual;
+        report.factorisations += 1;
+        let solved = nodal.solve(*simd, 0.0).is_some();
+        if residual <= settings.tolerance {
+            // One step more costs little and takes what is left down to round-off.
+            if solved && nodal.step_size() <= WARM.stride {
+                nodal.take(problem, 1.0, record);
+            }
             finish(problem, record);
             outcome = Outcome::Converged;
             break;
         }
-        lent = (lend * report.residual.min(MOST_SLACK)).max(least_lent(problem));
-        report.factorisations += 1;
-        if nodal.solve(*simd, 0.0).is_none() {
+        if !solved {
             outcome = Outcome::Singular;
             break;
         }
@@ -439,7 +466,7 @@ fn relax(
             last = f64::INFINITY;
             continue;
         }
-        lent = (lend * residual.min(MOST_SLACK)).max(least_lent(problem));
+        lent = (lend * residual.min(MOST_SLACK)).max(least_lent(problem, strength));
         loop {
             report.factorisations += 1;
             match nodal.solve(simd, drag) {
@@ -471,8 +498,8 @@ fn relax(
 }
 
 /// The least that is lent to all elements together.
-pub(crate) fn least_lent(problem: &Problem) -> f64 {
-    LEAST_LENT * problem.rod.elements() as f64
+fn least_lent(problem: &Problem, strength: f64) -> f64 {
+    (LEAST_LENT * problem.rod.elements() as f64).max(STEADY_LENT / strength)
 }
 
 /// Finds the way off an unstable equilibrium: the step that a small load makes against hardly more drag than holds the rod there, which is

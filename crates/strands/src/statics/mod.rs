@@ -55,15 +55,24 @@ pub fn solve(
 ) -> Result<Solution, SolveFailure> {
     let mut report = SolveReport::default();
     if let Some(reason) = refused(problem, settings) {
-        let problem = fit::fitted(problem);
-        let search = nearest(&problem, guess, workspace, &mut report);
-        return Err(failure(&problem, &search, reason, workspace, report));
+        return Err(not_tried(problem, reason, guess, workspace, report));
     }
     let search = find(problem, settings, guess, workspace, &mut report);
+    concluded(problem, settings, &search, workspace, report)
+}
+
+/// What a search has come to.
+fn concluded(
+    problem: &Problem,
+    settings: &Settings,
+    search: &Search,
+    workspace: &mut Workspace,
+    mut report: SolveReport,
+) -> Result<Solution, SolveFailure> {
     report.morse_index =
         if search.outcome == Outcome::Converged { stability::morse_index(problem, workspace) } else { None };
     let reason = match search.outcome {
-        Outcome::Converged => return Ok(solution(problem, &search, workspace, report)),
+        Outcome::Converged => return Ok(solution(problem, search, workspace, report)),
         Outcome::Singular => FailureReason::Singular,
         Outcome::NotFinite => FailureReason::NotFinite { node: first_bad_node(workspace) },
         Outcome::Stalled => too_coarse(problem, workspace).unwrap_or(FailureReason::NotConverged {
@@ -72,7 +81,33 @@ pub fn solve(
             iterations: report.iterations,
         }),
     };
-    Err(failure(problem, &search, reason, workspace, report))
+    Err(failure(problem, search, reason, workspace, report))
+}
+
+/// Finds by Newton's method alone the equilibrium nearest to a guess (the last problem's solution), or to the rod at rest, put between its
+/// supports: stable or not, where [`solve`] moves away from one that is not. So a branch is followed past where it loses its stability, which
+/// [`SolveReport::morse_index`] counts.
+///
+/// From the last problem's solution it starts with all that the workspace still has of it; from another guess, with a march from the end. What the
+/// supports between the ends bear is not in a guess: of a rod so held the workspace must be the last problem's.
+///
+/// # Errors
+/// Where there is none near: why, with the nearest state. Where the elements derive from no energy (order 1).
+pub fn nearest(
+    problem: &Problem,
+    settings: &Settings,
+    guess: Option<&Guess>,
+    workspace: &mut Workspace,
+) -> Result<Solution, SolveFailure> {
+    let settings = Settings { method: Method::Equilibrium, ..*settings };
+    let mut report = SolveReport::default();
+    if let Some(reason) = refused(problem, &settings) {
+        return Err(not_tried(problem, reason, guess, workspace, report));
+    }
+    report.restart(Method::Equilibrium);
+    equilibrium::put_state(problem, guess, workspace);
+    let search = equilibrium::nearest(problem, &settings, workspace, &mut report);
+    concluded(problem, &settings, &search, workspace, report)
 }
 
 /// One frame of an interactive loop: searches from the last solution for the one next to it. Nothing is allocated once the workspace and the
@@ -291,18 +326,21 @@ fn too_coarse(problem: &Problem, workspace: &Workspace) -> Option<FailureReason>
 /// More elements than this are not advised.
 const MOST_NEEDED: f64 = 1e5;
 
-/// The state of a problem that is not tried: the guess, or the rod at rest, with its residual.
-fn nearest(
+/// The failure of a problem that is not tried: the guess, or the rod at rest, with its residual.
+fn not_tried(
     problem: &Problem,
+    reason: FailureReason,
     guess: Option<&Guess>,
     workspace: &mut Workspace,
-    report: &mut SolveReport,
-) -> Search {
-    let guess = guess.copied().unwrap_or_else(|| path::rest(problem));
-    let state = EndState::from_guess(problem, &guess);
+    mut report: SolveReport,
+) -> SolveFailure {
+    let problem = fit::fitted(problem);
+    let guess = guess.copied().unwrap_or_else(|| path::rest(&problem));
+    let state = EndState::from_guess(&problem, &guess);
     let only_look = Settings { max_iterations: 0, ..Settings::default() };
     report.method = Method::Shooting;
-    shoot(problem, &only_look, state, None, workspace, report)
+    let search = shoot(&problem, &only_look, state, None, workspace, &mut report);
+    failure(&problem, &search, reason, workspace, report)
 }
 
 fn failure(
@@ -394,7 +432,8 @@ impl Solution {
     }
 
     /// How far force and moment are from balance, over the largest force and moment that act: the supports' reactions and every load,
-    /// moments about the world's origin, those of the forces' levers too. Round-off, whatever the number of elements.
+    /// moments about the world's origin, those of the forces' levers too, and of that force across the rod's length. Round-off, whatever the
+    /// number of elements.
     pub fn imbalance(&self, problem: &Problem) -> f64 {
         let (mut force, mut moment) = (Vec3::ZERO, Vec3::ZERO);
         let (mut force_size, mut moment_size) = (f64::MIN_POSITIVE, f64::MIN_POSITIVE);
@@ -414,6 +453,8 @@ impl Solution {
         for (reaction, (node, _)) in self.reactions.iter().zip(problem.supports()) {
             add(reaction.force, reaction.moment, self.poses[node].position);
         }
+        // Forces that all lie on one line through the origin have no lever there.
+        moment_size = moment_size.max(force_size * problem.rod.length());
         (force.norm() / force_size).max(moment.norm() / moment_size)
     }
 }
