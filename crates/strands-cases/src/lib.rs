@@ -21,6 +21,8 @@
 //!
 //! [`bank`] has rods drawn at random, to find what a solver cannot do.
 //!
+//! [`wild`] has problems that nobody would pose, to find what breaks a solver.
+//!
 //! [`workloads`] are long runs of problems, each next to the one before, as an interactive program has them.
 
 mod arcs;
@@ -40,6 +42,7 @@ mod spring;
 mod table;
 mod three_points;
 mod tip_wrench;
+pub mod wild;
 pub mod workloads;
 
 pub use case::{Answer, Case, CaseError, Outcome, Row, Start};

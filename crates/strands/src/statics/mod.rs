@@ -35,7 +35,7 @@ pub use solution::{
     SolveReport,
 };
 
-use crate::math::{Vec3, Vec6};
+use crate::math::{Pose, Vec3, Vec6};
 use crate::rod::{Kinematics, Order};
 use boundary::{EndState, loaded_start};
 use equilibrium::{Stretch, stretches};
@@ -72,11 +72,17 @@ fn concluded(
     report.morse_index =
         if search.outcome == Outcome::Converged { stability::morse_index(problem, workspace) } else { None };
     let reason = match search.outcome {
-        Outcome::Converged => return Ok(solution(problem, search, workspace, report)),
+        Outcome::Converged => {
+            let found = solution(problem, search, workspace, report.clone());
+            if found.is_finite() {
+                return Ok(found);
+            }
+            FailureReason::NotFinite { node: first_bad_node(workspace) }
+        }
         Outcome::Singular => FailureReason::Singular,
         Outcome::NotFinite => FailureReason::NotFinite { node: first_bad_node(workspace) },
         Outcome::Stalled => too_coarse(problem, workspace).unwrap_or(FailureReason::NotConverged {
-            residual: report.residual,
+            residual: report.residual_history.iter().copied().fold(f64::INFINITY, f64::min),
             tolerance: settings.tolerance,
             iterations: report.iterations,
         }),
@@ -347,10 +353,17 @@ fn failure(
     problem: &Problem,
     search: &Search,
     reason: FailureReason,
-    workspace: &Workspace,
+    workspace: &mut Workspace,
     report: SolveReport,
 ) -> SolveFailure {
-    SolveFailure { reason, nearest: Box::new(solution(problem, search, workspace, report)) }
+    let mut nearest = solution(problem, search, workspace, report);
+    if !nearest.is_finite() {
+        // What has overflowed is nothing to look at: the rod as it is laid out before a search.
+        equilibrium::put_state(problem, None, workspace);
+        let laid_out = equilibrium::found(problem, Outcome::Stalled, workspace);
+        nearest = solution(problem, &laid_out, workspace, nearest.report);
+    }
+    SolveFailure { reason, nearest: Box::new(nearest) }
 }
 
 fn first_bad_node(workspace: &Workspace) -> usize {
@@ -421,6 +434,15 @@ fn reaction_between(problem: &Problem, record: &Record, node: usize) -> Reaction
 }
 
 impl Solution {
+    /// Whether all its numbers are numbers.
+    pub fn is_finite(&self) -> bool {
+        let held = |reaction: &Reaction| reaction.force.is_finite() && reaction.moment.is_finite();
+        self.poses.iter().all(Pose::is_finite)
+            && self.strain.iter().chain(&self.stress).all(|strain| strain.is_finite())
+            && self.reactions.iter().all(held)
+            && (self.energy.elastic + self.energy.load).is_finite()
+    }
+
     /// What holds the start.
     pub fn start_reaction(&self) -> &Reaction {
         &self.reactions[0]
