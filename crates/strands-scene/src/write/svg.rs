@@ -32,7 +32,9 @@ pub fn svg(model: &Model, solutions: &[(&str, &Solution)]) -> String {
     );
     let mut line = |text: String| out.extend([text.as_str(), "\n"]);
     for (i, rod) in solved.iter().enumerate() {
-        line(drawn(rod, &view, &frame, COLOURS[i % COLOURS.len()]));
+        // Many shapes of one rod have its name once.
+        let named = solved[i + 1..].iter().all(|other| other.rod.name != rod.rod.name);
+        line(drawn(rod, &view, &frame, COLOURS[i % COLOURS.len()], named));
     }
     line(axes(&view));
     line(scale_bar(frame.scale));
@@ -65,7 +67,7 @@ impl Frame {
     }
 }
 
-fn drawn(rod: &Solved<'_>, view: &View, frame: &Frame, colour: &str) -> String {
+fn drawn(rod: &Solved<'_>, view: &View, frame: &Frame, colour: &str, named: bool) -> String {
     let place = |pose: &strands::math::Pose| frame.place(view.project(pose.position));
     let poses = &rod.solution.poses;
     let mut path = String::new();
@@ -92,6 +94,9 @@ fn drawn(rod: &Solved<'_>, view: &View, frame: &Frame, colour: &str) -> String {
             )
             .unwrap_or_else(|error| unreachable!("in memory: {error}"));
         }
+    }
+    if !named {
+        return out;
     }
     let [x, y] = place(&poses[poses.len() / 2]);
     let (x, y) = (x + 0.5 * width + 6.0, y - 0.5 * width - 6.0);

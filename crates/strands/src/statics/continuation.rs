@@ -109,7 +109,9 @@ pub enum PathError<E> {
 /// The parameter's step for differences.
 const DIFFERENCE: f64 = 1e-6;
 /// Iterations that a point may take; after more, the step was too long.
-const MOST_ITERATIONS: usize = 8;
+const MOST_ITERATIONS: usize = 12;
+/// A point that takes no more is a reason for a longer step. A rod that is stiff against stretching takes five of them for the smallest step.
+const ENOUGH_ITERATIONS: usize = 6;
 /// The largest turn (rad) or shift (over half the length) of a node in one step.
 const LARGEST_MOTION: f64 = 0.25;
 /// The tangent may turn so far in one step (cosine): further, it is another branch's.
@@ -266,7 +268,7 @@ impl Follower<'_> {
                 path.end = if next.at > 0.5 { PathEnd::Reached } else { PathEnd::Returned };
                 break;
             }
-            step = taken * if next.report.iterations <= 3 { 1.5 } else { 0.8 };
+            step = taken * if next.report.iterations <= ENOUGH_ITERATIONS { 1.5 } else { 0.8 };
             here = next;
         }
         path
