@@ -88,6 +88,13 @@ function stand(material: THREE.Material): THREE.Group {
   return group
 }
 
+/** A clip that holds the thread between its ends: a ring around it. */
+function clip(material: THREE.Material): THREE.Mesh {
+  const ring = new THREE.Mesh(new THREE.TorusGeometry(0.0045, 0.0013, 12, 36), material)
+  ring.castShadow = ring.receiveShadow = true
+  return ring
+}
+
 /** The least height of a stand, in parts of the scene's size: a thread that hangs deeper hangs from above. */
 const HANGS = 0.55
 
@@ -98,6 +105,8 @@ export class Props {
   readonly start = new THREE.Group()
   /** Stands on the ground below the start. */
   readonly below = new THREE.Group()
+  /** Hold the thread between its ends. */
+  readonly clips = new THREE.Group()
   #dark = new THREE.MeshStandardMaterial({ color: 0x5a6675, roughness: 0.45 })
   #parts = { needle: needle(), grip: grip(), tissue: tissue(), clamp: clamp(this.#dark), stand: stand(this.#dark) }
 
@@ -131,6 +140,17 @@ export class Props {
     this.#parts.stand.visible &&= height < HANGS * size
     const [, foot] = this.#parts.stand.children
     foot.scale.z = (0.16 * scale) / height
+  }
+
+  /** Makes as many clips as there are supports between the ends, of the clamp's size. */
+  countClips(count: number): void {
+    while (this.clips.children.length > count) {
+      const last = this.clips.children[this.clips.children.length - 1] as THREE.Mesh
+      last.geometry.dispose()
+      this.clips.remove(last)
+    }
+    while (this.clips.children.length < count) this.clips.add(clip(this.#dark))
+    for (const one of this.clips.children) one.scale.copy(this.start.scale).multiply(this.#parts.clamp.scale)
   }
 
   /** Where the end can be grabbed, in the end's frame, m. */

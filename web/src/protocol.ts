@@ -11,6 +11,8 @@ export interface Report {
   reason: string | null
   /** Whether the worker is still on its way to the hand. */
   settling: boolean
+  /** Whether the thread has just snapped over to another equilibrium. */
+  snapped: boolean
   mode: HandMode
   /** How far the hand is out of reach, m. */
   beyond: number
@@ -26,6 +28,8 @@ export interface Report {
   saturated: boolean
   start: Reaction
   end: Reaction
+  /** Of the supports between the ends, in order. */
+  between: (Reaction & { node: number })[]
 }
 
 export interface Reaction {

@@ -6,6 +6,9 @@ import type { Report, Shape } from './protocol'
 
 /** How many solves the spread of the solve time looks back on. */
 const SOLVES = 300
+/** How long a snap is told of, ms, and how long the words then fade. */
+const TOLD = 2000
+const FADES = 300
 
 export interface Verdict {
   kind: 'stable' | 'converged' | 'unstable' | 'failed' | 'away' | 'following'
@@ -33,6 +36,8 @@ export class Readout {
   readonly times: number[] = []
   #badge = document.getElementById('badge')!
   #live = document.getElementById('live')!
+  #snap = document.getElementById('snap')!
+  #fading = 0
   #said = ''
 
   constructor(private plot: Plot) {}
@@ -40,6 +45,24 @@ export class Readout {
   clear(): void {
     this.times.length = 0
     this.plot.clear()
+    this.#forgetSnap()
+  }
+
+  /** Says for a while that the thread has snapped over. */
+  #tellSnap(): void {
+    clearTimeout(this.#fading)
+    this.#snap.textContent = 'The strand snapped to another equilibrium'
+    this.#snap.classList.add('shown')
+    this.#fading = window.setTimeout(() => {
+      this.#snap.classList.remove('shown')
+      this.#fading = window.setTimeout(() => this.#forgetSnap(), FADES)
+    }, TOLD)
+  }
+
+  #forgetSnap(): void {
+    clearTimeout(this.#fading)
+    this.#snap.classList.remove('shown')
+    this.#snap.textContent = ''
   }
 
   /** `solved` says whether the shape comes from a solve of its own, and not from the way to an earlier hand. */
@@ -60,6 +83,7 @@ export class Readout {
     }
     for (const [id, text] of Object.entries(texts)) document.getElementById(id)!.textContent = text
     this.plot.add(force, torque)
+    if (report.snapped) this.#tellSnap()
     const verdict = judge(report)
     // Most ways are too short to be seen.
     if (verdict.kind !== 'following' || !solved) this.say(verdict)

@@ -93,7 +93,7 @@ export class Stage {
     })
     this.#rim.position.set(0.6, 1, 0.5)
     this.#scene.add(this.#fill, this.#rim, this.#key, this.#key.target, this.#ground.group, this.tube.mesh, this.others, this.#glyphs.lines)
-    this.#scene.add(this.#props.end, this.#props.start, this.#props.below, this.#gap, this.#arrows.group, this.gizmo.getHelper())
+    this.#scene.add(this.#props.end, this.#props.start, this.#props.below, this.#props.clips, this.#gap, this.#arrows.group, this.gizmo.getHelper())
     this.#gap.visible = this.#glyphs.lines.visible = false
     this.#gap.frustumCulled = false
     // The ring of the focus is for the keyboard.
@@ -154,6 +154,8 @@ export class Stage {
     const { start, end } = this.#props
     if (!this.gizmo.dragging) place(end, shape.frames, nodes - 1)
     place(start, shape.frames, 0)
+    this.#props.countClips(shape.report.between.length)
+    this.#props.clips.children.forEach((clip, i) => place(clip, shape.frames, shape.report.between[i].node))
     const tip = new THREE.Vector3().fromArray(shape.frames, 12 * nodes - 3)
     const hand = new THREE.Vector3().fromArray(shape.hand, 0)
     this.#gap.visible = hand.distanceTo(tip) > 2e-3 * this.size && shape.report.mode === 'pose'

@@ -110,7 +110,9 @@ async function settle(turn: number): Promise<void> {
     const open = session
     const start = performance.now()
     let more = true
-    while (more && performance.now() - start < BIT) more = open.settle()
+    // A snap is told before anything else happens.
+    do more = open.settle()
+    while (more && !open.snapped() && performance.now() - start < BIT)
     say({ kind: 'settled', shape: shape(open, performance.now() - start) })
     await breathe()
   }

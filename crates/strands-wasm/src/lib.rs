@@ -8,6 +8,7 @@ mod hand;
 mod numbers;
 mod session;
 mod settle;
+mod snap;
 
 use hand::HandMode;
 use numbers::flat;
@@ -119,6 +120,11 @@ impl Session {
         self.state.settle()
     }
 
+    /// Whether the thread has snapped over to another equilibrium in the last solve, or the last bit of the way.
+    pub fn snapped(&self) -> bool {
+        self.state.snapped()
+    }
+
     /// The hand, the coupling and the solution in numbers that [`restore`](Session::restore) takes back.
     pub fn snapshot(&self) -> Vec<f64> {
         self.state.snapshot()
@@ -174,7 +180,8 @@ impl Session {
     }
 
     /// How the last solve went, as JSON: `rod` (the name of the held one), `status`, `reason`, `method`, `iterations`, `residual`, `sweeps`, `path_steps`, `morse_index`, `energy`,
-    /// `saturated`, `settling` (whether there is more to do), `mode`, `beyond` (how far the hand is out of reach, m), and the reactions `start` and `end`, each `{ force, moment }` in world axes.
+    /// `saturated`, `settling` (whether there is more to do), `snapped` (whether the thread has just snapped over to another equilibrium), `mode`, `beyond` (how far the hand is out of reach, m), the reactions `start` and `end`,
+    /// each `{ force, moment }` in world axes, and the same of the supports `between` them, with the `node` that each holds.
     pub fn report(&self) -> String {
         self.state.report()
     }

@@ -2,12 +2,15 @@
 
 use strands::coupling::{Grip, LastFrame, VirtualCoupling};
 use strands::math::{Pose, Quat, Strain, Wrench};
-use strands::statics::{Guess, Solution, SolveReport, Support, Workspace, solve};
+use strands::statics::{
+    Guess, Problem, Reaction, Solution, SolveReport, Support, Workspace, recall, rest_from, solve,
+};
 use strands_scene::{CouplingFile, FixName, HandFile, Model, ModelRod, Place, Scene, SceneFile, SupportFile};
 
 use crate::hand::{HandMode, coupling_for, reachable};
 use crate::numbers::{coupling_numbers, flat, hand_from, unflat, vector};
-use crate::settle::{Bit, Start, Way, search};
+use crate::settle::{Bit, LARGEST_TURN, Start, Way, is_stable, largest_turn, search};
+use crate::snap::{Motion, is_far, is_small};
 
 pub struct State {
     scene: Scene,
@@ -24,6 +27,8 @@ pub struct State {
     way: Option<Way>,
     /// Whether no other branch was found since the hand was last reached: looking again would hold up the hand in vain.
     stuck: bool,
+    /// Whether the thread has snapped over in the last solve or bit of the way.
+    snapped: bool,
     /// The shape that the scene opened with, where it is held.
     home: Option<Start>,
 }
@@ -59,6 +64,7 @@ impl State {
             outcome,
             way: None,
             stuck: false,
+            snapped: false,
             home,
         })
     }
@@ -89,6 +95,7 @@ impl State {
         self.held = held;
         self.scene = scene;
         self.solutions = solutions;
+        self.snapped = false;
         // The old home belongs to another rod.
         self.home = None;
         let report = self.solution().report.clone();
@@ -205,13 +212,18 @@ impl State {
         self.scene.model.rods.iter().map(|rod| rod.name.as_str()).zip(&self.solutions).collect()
     }
 
-    /// Solves the held rod for where the hand is, with one search from the last shape. Where that is not enough, [`settle`](State::settle)
-    /// goes on. Without a hand that leads nobody waits for the next frame, and the thread comes to rest as one that starts from rest.
+    /// Solves the held rod for where the hand is, with one search from the last shape. Where its branch ends or loses its stability, the thread
+    /// is let move on to where it rests. Where that is not enough, [`settle`](State::settle) goes on. Without a hand that leads nobody waits for the next frame, and the thread comes to rest as one that starts from rest.
     pub fn solve(&mut self, time_step: f64) -> bool {
         let mut problem = self.rod().problem.clone();
         problem.end = self.end(self.rod(), time_step);
         let whole = self.scene.model.settings;
+        self.snapped = false;
         let found = if self.mode.leads() {
+            if !problem.between.is_empty() {
+                // What the supports between bear is not in the guess.
+                recall(&problem, &self.solutions[self.held], &mut self.workspace);
+            }
             let guess = self.last_start().guess_at(&problem.end);
             search(&problem, &whole, guess, &mut self.workspace)
         } else {
@@ -223,6 +235,11 @@ impl State {
         // The stability of a thread on a spring says nothing of the branch that it is on.
         let may_be_unstable = self.mode != HandMode::Pose || self.solution().report.morse_index != Some(0);
         match found {
+            Ok(solution) if !self.has_left(&solution) => {
+                self.take(solution, self.aim());
+                true
+            }
+            _ if self.move_on(&problem) => true,
             // A search that lost stability has landed on another branch: small steps may stay on this one.
             Ok(solution) if may_be_unstable || solution.report.morse_index == Some(0) => {
                 self.take(solution, self.aim());
@@ -241,18 +258,59 @@ impl State {
         }
     }
 
+    /// Whether a search has left the branch that the thread is on, or this one has lost its stability.
+    fn has_left(&self, found: &Solution) -> bool {
+        if !self.mode.leads() {
+            return false;
+        }
+        let last = self.solution();
+        // On a spring the thread may have been unstable from the start, as it was taken hold of.
+        let was_stable = self.mode == HandMode::Pose || last.report.morse_index == Some(0);
+        let hand = largest_turn(&[self.last_hand], &[self.aim()]);
+        was_stable && !is_stable(found) || largest_turn(&last.poses, &found.poses) > hand + LARGEST_TURN
+    }
+
+    /// Lets the thread move on from its last shape to where it rests with the hand where it is now. Gives whether it came to rest.
+    fn move_on(&mut self, problem: &Problem) -> bool {
+        let aim = self.aim();
+        let within = self.beyond() == 0.0 && is_small(&self.last_hand, &aim, problem.rod.length());
+        if !self.mode.leads() || self.stuck || !within {
+            return false;
+        }
+        let settings = &self.scene.model.settings;
+        let rests = rest_from(problem, settings, &self.solutions[self.held], &mut self.workspace);
+        let Some(found) = rests.ok().filter(is_stable) else { return false };
+        self.snapped = self.is_snap(&found, &aim);
+        self.take(found, aim);
+        true
+    }
+
+    /// Whether a shape is far from the last one, beyond what the hand has done since.
+    fn is_snap(&self, found: &Solution, hand: &Pose) -> bool {
+        let motion = Motion::of(&self.last_hand, hand);
+        is_far(&self.solution().poses, &found.poses, motion, self.rod().problem.rod.length())
+    }
+
+    /// Whether the thread has snapped over in the last solve or bit of the way.
+    pub fn snapped(&self) -> bool {
+        self.snapped
+    }
+
     /// Does a little more to get to the hand, and gives whether there is more to do.
     pub fn settle(&mut self) -> bool {
         let Some(mut way) = self.way.take() else { return false };
         let mut problem = self.rod().problem.clone();
         problem.end = self.end(self.rod(), 0.0);
         let hand = self.aim();
+        self.snapped = false;
         match way.walk(&problem, &hand, &self.scene.model.settings, &mut self.workspace) {
             Bit::Arrived(solution) => {
+                self.snapped = way.jumped && self.is_snap(&solution, &hand);
                 self.take(solution, hand);
                 return false;
             }
             Bit::Nearer(solution, hand) => {
+                self.snapped = way.jumped && self.is_snap(&solution, &hand);
                 self.solutions[self.held] = solution;
                 self.last_hand = hand;
             }
@@ -344,14 +402,22 @@ impl State {
     pub fn report(&self) -> String {
         let Outcome { report, reason, saturated } = &self.outcome;
         let solution = self.solution();
-        let [start, end] = [solution.start_reaction(), solution.end_reaction()].map(|reaction| {
-            serde_json::json!({ "force": reaction.force.to_array(), "moment": reaction.moment.to_array() })
-        });
+        let json = |reaction: &Reaction| serde_json::json!({ "force": reaction.force.to_array(), "moment": reaction.moment.to_array() });
+        let [start, end] = [solution.start_reaction(), solution.end_reaction()].map(json);
+        let held = self.rod().problem.between.iter().zip(&solution.reactions[1..]);
+        let between: Vec<_> = held
+            .map(|((node, _), reaction)| {
+                let mut support = json(reaction);
+                support["node"] = (*node).into();
+                support
+            })
+            .collect();
         serde_json::json!({
             "rod": self.rod().name,
             "status": if reason.is_none() { "converged" } else { "failed" },
             "reason": reason,
             "settling": self.way.is_some(),
+            "snapped": self.snapped,
             "mode": self.mode.name(),
             "beyond": self.beyond(),
             "method": report.method.name(),
@@ -366,6 +432,7 @@ impl State {
             "saturated": saturated,
             "start": start,
             "end": end,
+            "between": between,
         })
         .to_string()
     }

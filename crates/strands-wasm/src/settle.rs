@@ -1,7 +1,7 @@
 //! The way to a hand that one search did not reach, in bits of work small enough that a newer hand can come between them.
 //!
-//! First in small steps from the last shape. Where the thread would have to snap over, that way ends at the snap; then from the shape that
-//! the scene opened with. Steps that turn a part of the thread by a radian, or lose stability, are made smaller; an unstable shape at the hand is
+//! First in small steps from the last shape. Where the thread has to snap over, that way ends at the snap, and the thread is let move on to where
+//! it rests with the hand a little further; where that fails too, from the shape that the scene opened with. Steps that turn a part of the thread by a radian, or lose stability, are made smaller; an unstable shape at the hand is
 //! taken when no way leads to a stable one. A start from rest goes to whatever shape it finds, so it comes after all other starts: by then the
 //! hand rests.
 
@@ -9,8 +9,10 @@ use strands::coupling::VirtualCoupling;
 use strands::math::{Mat3, Pose, Quat};
 use strands::statics::{
     FailureReason, Guess, Problem, Reaction, Settings, Solution, SolveReport, Support, Workspace, follow,
-    solve,
+    recall, rest_from, solve,
 };
+
+use crate::snap::is_small;
 
 /// Iterations of one step: a coil may need thirty, and a step that fails mostly stalls long before.
 const ITERATIONS: usize = 40;
@@ -19,7 +21,9 @@ const FIRST_STEP: f64 = 0.25;
 /// The step at which a way counts as blocked.
 const SMALLEST_STEP: f64 = 1.0 / 256.0;
 /// How far, in rad, one step may turn any part of the thread: more is a jump to another shape.
-const LARGEST_TURN: f64 = 1.0;
+pub const LARGEST_TURN: f64 = 1.0;
+/// How often the thread may snap over on one way.
+const MOST_SNAPS: usize = 8;
 
 /// A shape to start from, with the hand that holds it.
 #[derive(Clone, Copy, Debug)]
@@ -71,8 +75,12 @@ pub struct Way {
     others: Vec<Start>,
     /// An unstable shape at the hand, for want of a stable one.
     unstable: Option<Solution>,
-    /// Whether to look for another branch from rest, once all else has failed.
+    /// Whether to look for another branch, where the one that the thread was on ends.
     may_snap: bool,
+    /// How often it has been let go over to another.
+    snaps: usize,
+    /// Whether what the last bit brought need not be on the branch of what was before.
+    pub jumped: bool,
 }
 
 /// What one bit of work brought.
@@ -97,7 +105,9 @@ impl Way {
         unstable: Option<Solution>,
         may_snap: bool,
     ) -> Self {
-        Self { at: last, step: FIRST_STEP, shape: Some(shape), continuous: true, others, unstable, may_snap }
+        let shape = Some(shape);
+        let (continuous, jumped) = (true, false);
+        Self { at: last, step: FIRST_STEP, shape, continuous, others, unstable, may_snap, snaps: 0, jumped }
     }
 
     /// Does one bit of the work to get to a problem whose end the hand holds.
@@ -108,28 +118,59 @@ impl Way {
         settings: &Settings,
         workspace: &mut Workspace,
     ) -> Bit {
+        self.jumped = !self.continuous;
         if self.step < SMALLEST_STEP {
-            return self.start_elsewhere(goal, settings, workspace);
+            return match self.snap(goal, hand, settings, workspace) {
+                Some(bit) => bit,
+                None => self.start_elsewhere(goal, settings, workspace),
+            };
         }
         let whole = self.step >= 1.0;
         let next = if whole { *hand } else { between(&self.at.hand, hand, self.step) };
         let mut problem = goal.clone();
         hold(&mut problem.end, next);
+        if let Some(shape) = self.shape.as_ref().filter(|_| !problem.between.is_empty()) {
+            recall(&problem, shape, workspace);
+        }
         let short = Settings { max_iterations: ITERATIONS, ..*settings };
         let found = search(&problem, &short, self.at.guess_at(&problem.end), workspace).ok();
         let Some(found) = found.filter(|found| self.follows(found)) else {
             self.step *= 0.5;
             return Bit::Trying;
         };
+        // The step is a part of what is left, so that twice the length is a little more than twice the part.
+        self.step = f64::min(2.0 * self.step / (1.0 - self.step), 1.0);
+        self.arrive(&problem, found, next, whole)
+    }
+
+    /// Goes on from what has been found.
+    fn arrive(&mut self, problem: &Problem, found: Solution, at: Pose, whole: bool) -> Bit {
         let saturated = problem.end.grip.is_some_and(|grip| grip.saturated(&found.guess.pose));
-        self.at = Start::new(&found, next, saturated);
+        self.at = Start::new(&found, at, saturated);
         if whole {
             return Bit::Arrived(found);
         }
-        // The step is a part of what is left, so that twice the length is a little more than twice the part.
-        self.step = f64::min(2.0 * self.step / (1.0 - self.step), 1.0);
         self.shape = Some(found.clone());
-        if self.continuous { Bit::Nearer(found, next) } else { Bit::Trying }
+        if self.continuous { Bit::Nearer(found, at) } else { Bit::Trying }
+    }
+
+    /// Where the branch that the thread is on ends: lets it move on to where it rests with the hand further on.
+    fn snap(
+        &mut self,
+        goal: &Problem,
+        hand: &Pose,
+        settings: &Settings,
+        workspace: &mut Workspace,
+    ) -> Option<Bit> {
+        let may = self.may_snap && self.continuous && self.snaps < MOST_SNAPS;
+        let last = self.shape.as_ref().filter(|_| may)?;
+        let whole = is_small(&self.at.hand, hand, goal.rod.length());
+        let next = if whole { *hand } else { between(&self.at.hand, hand, FIRST_STEP) };
+        let mut problem = goal.clone();
+        hold(&mut problem.end, next);
+        let found = rest_from(&problem, settings, last, workspace).ok().filter(is_stable)?;
+        (self.snaps, self.jumped, self.step) = (self.snaps + 1, true, FIRST_STEP);
+        Some(self.arrive(&problem, found, next, whole))
     }
 
     /// Whether a shape is the next one on the way, and not on another branch.
@@ -142,9 +183,9 @@ impl Way {
     /// From another start, and when none is left, from rest: the branch that the thread was on may end here, and then it snaps to another.
     fn start_elsewhere(&mut self, goal: &Problem, settings: &Settings, workspace: &mut Workspace) -> Bit {
         let Some(start) = self.others.pop() else {
-            let stable = |found: &Solution| found.report.morse_index.unwrap_or(0) == 0;
+            self.jumped = true;
             let snapped = if self.may_snap { solve(goal, settings, None, workspace).ok() } else { None };
-            let snapped = snapped.filter(stable);
+            let snapped = snapped.filter(is_stable);
             return snapped.or_else(|| self.unstable.take()).map_or(Bit::Stuck, Bit::Arrived);
         };
         (self.at, self.step, self.shape, self.continuous) = (start, FIRST_STEP, None, false);
@@ -198,7 +239,12 @@ fn between(from: &Pose, to: &Pose, part: f64) -> Pose {
     }
 }
 
-fn largest_turn(before: &[Pose], after: &[Pose]) -> f64 {
+/// Whether nothing lowers its energy, as far as that can be told.
+pub fn is_stable(found: &Solution) -> bool {
+    found.report.morse_index.unwrap_or(0) == 0
+}
+
+pub fn largest_turn(before: &[Pose], after: &[Pose]) -> f64 {
     let turn = |a: &Mat3, b: &Mat3| Quat::from_matrix(a.transpose() * *b).to_rotation_vector().norm();
     let stride = (before.len() / 8).max(1);
     let pairs = before.iter().zip(after).step_by(stride);

@@ -265,3 +265,66 @@ fn a_hand_that_jumped_out_of_reach_is_given_up_without_a_start_from_rest_which_i
     go(&mut state);
     assert!(state.outcome.reason.is_none(), "{}", state.report());
 }
+
+/// A strip clamped at both ends, which are so near to each other that it is an arch.
+const ARCH: &str = r#"
+format = 1
+name = "arch"
+
+[rods.strip]
+length = 0.3
+elements = 100
+kinematics = "kirchhoff"
+stiffness = { bending = [1e-4, 1e-2], torsion = 1e-2 }
+supports = [
+    { at = "start", fix = ["position", "orientation"] },
+    { at = "end", fix = ["position", "orientation"], position = [0.0, 0.0, 0.28] },
+]
+"#;
+
+#[test]
+fn an_arch_whose_end_is_turned_snaps_to_the_other_side_once_and_says_so() {
+    let mut state = State::open(ARCH, "arch.toml").unwrap();
+    state.set_mode(HandMode::Pose).unwrap();
+    let rise = |state: &State| state.solution().poses[50].position.y;
+    let side = rise(&state).signum();
+    assert!(rise(&state).abs() > 0.02, "{}", rise(&state));
+    let start = state.hand.rotation;
+    let mut snaps = 0;
+    for i in 1..=100 {
+        let turn = Vec3::new(-0.02 * side * f64::from(i), 0.0, 0.0);
+        state.hand.rotation = start * Quat::from_rotation_vector(turn).to_matrix();
+        let before = rise(&state);
+        assert!(state.solve(0.0), "frame {i}: {}", state.report());
+        let report: serde_json::Value = serde_json::from_str(&state.report()).unwrap();
+        assert_eq!(report["morse_index"], 0, "frame {i}");
+        assert!(report["residual"].as_f64().unwrap() <= 1e-9, "frame {i}: {report}");
+        if report["snapped"] == true {
+            snaps += 1;
+            assert!(
+                before * side > 0.0 && rise(&state) * side < 0.0,
+                "frame {i}: from {before} to {}",
+                rise(&state)
+            );
+        }
+    }
+    assert_eq!(snaps, 1, "rise {} of side {side}", rise(&state));
+    assert!(rise(&state) * side < 0.0);
+}
+
+#[test]
+fn the_end_of_a_cable_that_is_held_between_can_be_dragged() {
+    let scene = strands_scene::bundled_scene("clipped_cable").unwrap();
+    let mut state = State::open(scene.text, "clipped_cable.toml").unwrap();
+    state.set_mode(HandMode::Pose).unwrap();
+    let start = state.hand.position;
+    for i in 1..=20 {
+        state.hand.position = start + Vec3::new(-0.002, 0.0, 0.003) * f64::from(i);
+        assert!(state.solve(0.0), "frame {i}: {}", state.report());
+        assert!(!state.snapped, "frame {i}");
+        assert_eq!(state.solution().report.path_steps, 1, "frame {i}: from rest");
+    }
+    let report: serde_json::Value = serde_json::from_str(&state.report()).unwrap();
+    assert_eq!(report["between"].as_array().unwrap().len(), 5);
+    assert_eq!(report["between"][0]["node"], 35);
+}

@@ -10,7 +10,7 @@ use super::march::{Record, Section, march, turned};
 use super::nodal::{Distance, Nodal};
 use super::problem::{Problem, Support};
 use super::shooting::{Outcome, Search, Workspace};
-use super::solution::{Guess, Method, Scheme, Settings, SolveReport};
+use super::solution::{Guess, Method, Scheme, Settings, Solution, SolveReport};
 use super::stability::{NEUTRAL, strength};
 use crate::element;
 use crate::math::{Mat3, Pose, SimdLevel, Strain, Vec3, Vec6, Wrench};
@@ -412,6 +412,39 @@ pub(crate) fn put_between_supports(problem: &Problem, poses: &mut [Pose]) {
         spread(last, node, end);
         last = node;
     }
+}
+
+/// Puts the state of a solution of the problem's rod and loads into the workspace: frames, strains, and the wrenches that the elements carry.
+pub(crate) fn recall(problem: &Problem, solution: &Solution, record: &mut Record) {
+    let last = problem.rod.elements() - 1;
+    record.fit(last + 1);
+    record.poses.copy_from_slice(&solution.poses);
+    record.strains.iter_mut().zip(&solution.strain).for_each(|(points, mean)| *points = [*mean; 2]);
+    record.wrenches[last] = solution.guess.wrench;
+    // The first reaction is the start's.
+    let borne = solution.reactions[1..].iter();
+    let mut held = problem.between.iter().zip(borne).rev().peekable();
+    for e in (0..last).rev() {
+        let node = e + 1;
+        let pose = &record.poses[node];
+        let beyond = pose.between(&record.poses[node + 1]).carry_wrench(record.wrenches[node]);
+        let mut carried = beyond + problem.loads.body[node] + turned(pose, problem.loads.world[node]);
+        if let Some((_, reaction)) = held.next_if(|((at, _), _)| *at == node) {
+            carried += turned(pose, Wrench::new(reaction.moment, reaction.force));
+        }
+        record.wrenches[e] = carried;
+    }
+}
+
+/// Lets the rod move on from the state in the workspace to where it rests.
+pub(crate) fn move_on(
+    problem: &Problem,
+    settings: &Settings,
+    workspace: &mut Workspace,
+    report: &mut SolveReport,
+) -> Search {
+    let outcome = from_state(problem, settings, workspace, report);
+    found(problem, outcome, workspace)
 }
 
 /// Moves the rod from the state in the workspace to rest, as from near an equilibrium.

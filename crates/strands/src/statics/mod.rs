@@ -116,6 +116,42 @@ pub fn nearest(
     concluded(problem, &settings, &search, workspace, report)
 }
 
+/// Lets a rod move on from a solution of it, its supports where they are now, to where it comes to rest: down in energy, as a thread does that
+/// has lost its stability, and only to a stable equilibrium. What [`follow`] cannot follow, at a fold, ends here.
+///
+/// # Errors
+/// Where it did not come to rest: why, with the nearest state. Where the elements derive from no energy (order 1).
+pub fn rest_from(
+    problem: &Problem,
+    settings: &Settings,
+    last: &Solution,
+    workspace: &mut Workspace,
+) -> Result<Solution, SolveFailure> {
+    let settings = Settings { method: Method::Equilibrium, ..*settings };
+    let mut report = SolveReport::default();
+    if let Some(reason) = refused(problem, &settings) {
+        return Err(not_tried(problem, reason, Some(&last.guess), workspace, report));
+    }
+    report.restart(Method::Equilibrium);
+    let search = if recall(problem, last, workspace) {
+        equilibrium::move_on(problem, &settings, workspace, &mut report)
+    } else {
+        equilibrium::from_rest(problem, &settings, workspace, &mut report)
+    };
+    concluded(problem, &settings, &search, workspace, report)
+}
+
+/// Puts a solution back into a workspace that has been used for something else since, what the supports between the ends bear too, which no guess
+/// holds. Gives whether it is one of this rod, held at as many places.
+pub fn recall(problem: &Problem, solution: &Solution, workspace: &mut Workspace) -> bool {
+    let fits = solution.poses.len() == problem.rod.elements() + 1
+        && solution.reactions.len() == problem.between.len() + 2;
+    if fits {
+        equilibrium::recall(problem, solution, &mut workspace.record);
+    }
+    fits
+}
+
 /// One frame of an interactive loop: searches from the last solution for the one next to it. Nothing is allocated once the workspace and the
 /// report have been used for the rod; the frames are in [`Workspace::poses`].
 ///
