@@ -87,7 +87,7 @@ pub struct Solve {
     #[arg(long, value_name = "TIMES", default_value_t = 1.0, requires = "all")]
     pub effort: f64,
     /// Follow the equilibrium while a key of the scene changes from value to value, round folds and past bifurcations, such as
-    /// 'rods.column.loads[0].force=[0,0,0]..[0,0,-5]'
+    /// `rods.column.loads[0].force=[0,0,0]..[0,0,-5]`
     #[arg(long, value_name = "KEY=FROM..TO")]
     pub path: Option<String>,
     /// Go over to the other branch at this bifurcation of the path, counted from 1

@@ -52,7 +52,7 @@ fn the_physics_has_few_dependencies() {
     let dependencies = physics["dependencies"].as_array().expect("dependencies").iter();
     let normal: Vec<&str> =
         dependencies.filter(|d| d["kind"].is_null()).filter_map(|d| d["name"].as_str()).collect();
-    assert_eq!(normal, ["libm", "thiserror"]);
+    assert_eq!(normal, ["fastrand", "libm", "thiserror"]);
 }
 
 fn metadata() -> Value {

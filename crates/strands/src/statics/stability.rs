@@ -14,7 +14,7 @@ use crate::math::{Vec3, Vec6};
 /// this part of what it would yield by bending, and an eigenvalue changes its sign by that much too early.
 pub(crate) const RIGID_COMPLIANCE: f64 = 1e-7;
 /// An eigenvalue below this, over `EI/L³` and the [`strength`], is none: the rod may be free to turn about an axis, and then round-off decides its sign.
-pub(crate) const NEUTRAL: f64 = 3e-5;
+pub(crate) const NEUTRAL: f64 = 4e-5;
 
 /// The Morse index of the equilibrium recorded in the workspace. `None` where follower loads or dead moments act on what can move or turn, which
 /// have no potential, and where a pivot is singular.
