@@ -17,7 +17,7 @@ use crate::args::Solve;
 use crate::solve::Format;
 use crate::source::Source;
 use crate::units::engineering;
-use crate::{Failure, drawing, overrides, say};
+use crate::{Failure, overrides, say, summary};
 
 /// Lists all equilibria of a rod.
 ///
@@ -215,12 +215,7 @@ fn picture<'a>(model: &Model, shapes: impl Iterator<Item = &'a Solution>) -> Str
     if lines.is_empty() {
         return String::new();
     }
-    let up = model.gravity.normalized().map_or(strands::math::Vec3::Z, |down| -down);
-    let mut out = String::new();
-    for line in &drawing::draw(&lines, up).lines {
-        let _ = writeln!(out, "  {}", line.trim_end());
-    }
-    out + "\n"
+    summary::sketch(&lines, model, str::to_owned).0 + "\n"
 }
 
 fn write_files(
@@ -274,7 +269,7 @@ impl Way {
                  'rods.thread.supports[1].position=[0,0,0.3]..[0,0,0.1]'; values between are possible, A..B..C"
             ))
         };
-        let (key, values) =
+        let (key, text) =
             overrides::key_and_value(written).ok_or_else(|| bad("there is no `=` after a key"))?;
         let numbers = |text: &str| -> Option<(Vec<f64>, bool)> {
             let number = |value: &Value| value.as_float().or_else(|| value.as_integer().map(|x| x as f64));
@@ -284,7 +279,7 @@ impl Way {
                 None => Some((vec![number(&value)?], false)),
             }
         };
-        let read: Vec<_> = values
+        let read: Vec<_> = text
             .split("..")
             .map(numbers)
             .collect::<Option<_>>()
@@ -297,7 +292,7 @@ impl Way {
         if values.iter().any(|value| value.len() != values[0].len() || value.iter().any(|x| !x.is_finite())) {
             return Err(bad("the values are not of one kind"));
         }
-        let name = written.split('=').next().unwrap_or_default().trim().to_owned();
+        let name = written[..written.len() - text.len() - 1].trim().to_owned();
         Ok(Self { key, written: name, values, is_list })
     }
 

@@ -6,8 +6,9 @@ use anstyle::{AnsiColor, Style};
 use strands::math::{Pose, Vec3};
 use strands::rod::{Rod, Scale};
 use strands::statics::{Problem, Solution};
+use strands_scene::Model;
 
-use crate::drawing::draw;
+use crate::drawing::{Drawing, draw};
 use crate::solve::{FailedRod, Outcome, SolvedRod};
 use crate::units::engineering;
 
@@ -61,17 +62,23 @@ fn picture(outcome: &Outcome, paint: Paint) -> String {
     if !lines.iter().flatten().all(|p| p.is_finite()) {
         return String::new();
     }
-    let up = outcome.model.gravity.normalized().map_or(Vec3::Z, |down| -down);
-    let drawing = draw(&lines, up);
-    let mut out = String::new();
-    for line in &drawing.lines {
-        let _ =
-            writeln!(out, "{}", format!("  {}", paint.with(AnsiColor::Cyan.on_default(), line)).trim_end());
-    }
+    let (mut out, drawing) =
+        sketch(&lines, &outcome.model, |line| paint.with(AnsiColor::Cyan.on_default(), line));
     let size = drawing.width.max(drawing.height);
     let side = |length: f64| engineering(settled(length, size), "m");
     let _ = writeln!(out, "  {} wide, {} high{of_what}\n", side(drawing.width), side(drawing.height));
     out
+}
+
+/// Lines in space as a person sees them, gravity pointing down, indented.
+pub fn sketch(lines: &[Vec<Vec3>], model: &Model, paint: impl Fn(&str) -> String) -> (String, Drawing) {
+    let up = model.gravity.normalized().map_or(Vec3::Z, |down| -down);
+    let drawing = draw(lines, up);
+    let mut out = String::new();
+    for line in &drawing.lines {
+        let _ = writeln!(out, "{}", format!("  {}", paint(line)).trim_end());
+    }
+    (out, drawing)
 }
 
 fn rows(rod: &SolvedRod, problem: &Problem) -> Vec<(&'static str, String)> {

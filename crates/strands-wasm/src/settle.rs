@@ -6,7 +6,7 @@
 //! hand rests.
 
 use strands::coupling::VirtualCoupling;
-use strands::math::{Mat3, Pose, Quat};
+use strands::math::{Pose, Quat};
 use strands::statics::{
     FailureReason, Guess, Problem, Reaction, Settings, Solution, SolveReport, Support, Workspace, follow,
     recall, rest_from, solve,
@@ -245,8 +245,7 @@ pub fn is_stable(found: &Solution) -> bool {
 }
 
 pub fn largest_turn(before: &[Pose], after: &[Pose]) -> f64 {
-    let turn = |a: &Mat3, b: &Mat3| Quat::from_matrix(a.transpose() * *b).to_rotation_vector().norm();
     let stride = (before.len() / 8).max(1);
     let pairs = before.iter().zip(after).step_by(stride);
-    pairs.map(|(a, b)| turn(&a.rotation, &b.rotation)).fold(0.0, f64::max)
+    pairs.map(|(a, b)| a.rotation.turn_to(&b.rotation).norm()).fold(0.0, f64::max)
 }

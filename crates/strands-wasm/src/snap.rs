@@ -1,6 +1,6 @@
 //! What is a snap: a shape far from the last one, though the hand has hardly moved.
 
-use strands::math::{Mat3, Pose};
+use strands::math::Pose;
 
 /// How far some node must have turned (rad) or moved (over the length), beyond what the hand did.
 const TURN: f64 = 0.5;
@@ -18,7 +18,8 @@ pub struct Motion {
 
 impl Motion {
     pub fn of(from: &Pose, to: &Pose) -> Self {
-        Self { turn: turn(&from.rotation, &to.rotation), shift: (to.position - from.position).norm() }
+        let turn = from.rotation.turn_to(&to.rotation).norm();
+        Self { turn, shift: (to.position - from.position).norm() }
     }
 }
 
@@ -34,10 +35,4 @@ pub fn is_far(before: &[Pose], after: &[Pose], hand: Motion, length: f64) -> boo
         let node = Motion::of(before, after);
         node.turn > hand.turn + TURN || node.shift > hand.shift + MOVE * length
     })
-}
-
-/// The angle between two frames, rad.
-fn turn(a: &Mat3, b: &Mat3) -> f64 {
-    let trace: f64 = a.cols.iter().zip(&b.cols).map(|(a, b)| a.dot(*b)).sum();
-    f64::acos((0.5 * (trace - 1.0)).clamp(-1.0, 1.0))
 }

@@ -4,7 +4,7 @@ use super::View;
 use strands::load::Frame;
 use strands::math::{Strain, Vec3};
 use strands::rod::{Kinematics, Law, Profile, Rod};
-use strands::statics::Support;
+use strands::statics::Stretch;
 
 /// Sizes, stiffnesses and loads of a rod.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -65,8 +65,9 @@ impl Numbers {
             tension: Tension { value: 0.0, found: false },
         };
         let loaded = numbers.weight * length + numbers.force;
-        let value =
-            stretches(view).map(|stretch| stretch.tension(rod, numbers.weight)).fold(loaded, f64::max);
+        let stretches = view.rod.problem.stretches();
+        let tensions = stretches.iter().map(|stretch| tension(stretch, rod, numbers.weight));
+        let value = tensions.fold(loaded, f64::max);
         Self { tension: Tension { value, found: false }, ..numbers }
     }
 
@@ -101,61 +102,20 @@ impl Numbers {
     }
 }
 
-/// A part of the rod between two places that are held.
-pub(super) struct Stretch {
-    /// Where it begins and ends, m from the start.
-    pub from: f64,
-    pub to: f64,
-    /// How far these places are held apart, m.
-    pub chord: f64,
-}
-
 /// Less to spare than this part of the length counts as none.
 const LEAST_SPARE: f64 = 1e-6;
 
-impl Stretch {
-    /// How long the rod is there, m.
-    pub fn length(&self) -> f64 {
-        self.to - self.from
+/// The tension that holding the ends of a stretch so brings about, N: `EA` times what it is stretched by, or where it hangs nearly straight that of
+/// a chain, whose length to spare is `(wL)²/24T²` of it.
+fn tension(stretch: &Stretch, rod: &Rod, weight: f64) -> f64 {
+    let spare = stretch.spare();
+    if spare > LEAST_SPARE {
+        return if spare < 0.1 { weight * stretch.length / (24.0 * spare).sqrt() } else { 0.0 };
     }
-
-    /// By what part of its length the rod has to stretch; negative where it has length to spare.
-    pub fn stretch(&self) -> f64 {
-        self.chord / self.length() - 1.0
+    match rod.kinematics() {
+        Kinematics::Cosserat => axial(rod).unwrap_or(0.0) * (-spare).max(0.0),
+        Kinematics::Kirchhoff => 0.0,
     }
-
-    /// The tension that holding its ends so brings about, N: `EA` times the stretch, or where it hangs nearly straight that of a chain, whose
-    /// length to spare is `(wL)²/24T²` of it.
-    fn tension(&self, rod: &Rod, weight: f64) -> f64 {
-        let spare = -self.stretch();
-        if spare > LEAST_SPARE {
-            return if spare < 0.1 { weight * self.length() / (24.0 * spare).sqrt() } else { 0.0 };
-        }
-        match rod.kinematics() {
-            Kinematics::Cosserat => axial(rod).unwrap_or(0.0) * self.stretch().max(0.0),
-            Kinematics::Kirchhoff => 0.0,
-        }
-    }
-}
-
-/// The stretches of a rod between places that are held in x, y and z.
-pub(super) fn stretches<'a>(view: &'a View<'_>) -> impl Iterator<Item = Stretch> + 'a {
-    let problem = &view.rod.problem;
-    let nodes = problem.rod.mesh().nodes();
-    let held: Vec<(f64, &Support)> = problem
-        .supports()
-        .filter(|(_, support)| support.holds_position())
-        .map(|(i, s)| (nodes[i], s))
-        .collect();
-    let pairs: Vec<Stretch> = held
-        .windows(2)
-        .map(|pair| Stretch {
-            from: pair[0].0,
-            to: pair[1].0,
-            chord: (pair[1].1.pose.position - pair[0].1.pose.position).norm(),
-        })
-        .collect();
-    pairs.into_iter()
 }
 
 /// The least axial stiffness `EA` along a rod, N; `None` where none was given.

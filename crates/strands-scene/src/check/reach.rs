@@ -1,6 +1,6 @@
 //! Supports that are further apart than the rod is long, and forces that tear it.
 
-use super::numbers::{Numbers, axial, stretches};
+use super::numbers::{Numbers, axial};
 use super::{Remarks, View, metres, short};
 use crate::document::KeyPath;
 use strands::rod::Kinematics;
@@ -13,21 +13,22 @@ pub(super) const MUCH_STRAIN: f64 = 0.1;
 /// Looks at the supports.
 pub(super) fn look(remarks: &mut Remarks<'_>, view: &View<'_>) {
     let rod = &view.rod.problem.rod;
-    for stretch in stretches(view) {
-        let by = stretch.stretch();
-        let key = || view.support_key(stretch.to);
+    let nodes = rod.mesh().nodes();
+    for stretch in view.rod.problem.stretches() {
+        let by = -stretch.spare();
+        let key = || view.support_key(nodes[stretch.to]);
         let apart = format!(
             "the rod is held at s = {} and at s = {} in places {} apart",
-            metres(stretch.from),
-            metres(stretch.to),
-            metres(stretch.chord)
+            metres(nodes[stretch.from]),
+            metres(nodes[stretch.to]),
+            metres(stretch.chord.norm())
         );
         match rod.kinematics() {
             Kinematics::Kirchhoff if by > 1e-12 => remarks.warn(
                 &key(),
                 format!(
                     "{apart}, and it is inextensible and {} long between: there is no equilibrium",
-                    metres(stretch.length())
+                    metres(stretch.length)
                 ),
                 "bring them nearer, give the rod more length, or let it stretch: `kinematics = \"cosserat\"`",
             ),
@@ -39,7 +40,7 @@ pub(super) fn look(remarks: &mut Remarks<'_>, view: &View<'_>) {
                     format!("{apart}: it is stretched by {:.1} %{pull}", 100.0 * by),
                     format!(
                         "it is {} long between them; bring them nearer if that is not meant",
-                        metres(stretch.length())
+                        metres(stretch.length)
                     ),
                 );
             }

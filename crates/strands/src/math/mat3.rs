@@ -1,6 +1,6 @@
 //! Square matrices of three rows.
 
-use super::{Real, Vec3, Vector};
+use super::{Quat, Real, Vec3, Vector};
 use core::ops::{Add, Mul, Sub};
 
 /// A 3×3 matrix, kept by its columns. As an orientation its columns are the directors `d1 d2 d3`.
@@ -27,6 +27,11 @@ impl Mat3 {
     /// The largest entry in magnitude.
     pub fn max_abs(self) -> f64 {
         self.cols.iter().fold(0.0, |max, c| max.max(c.max_abs()))
+    }
+
+    /// The rotation vector from one orientation to another, in the axes of either, rad.
+    pub fn turn_to(&self, other: &Self) -> Vec3 {
+        Quat::from_matrix(self.transpose() * *other).to_rotation_vector()
     }
 
     /// Whether every entry is finite.

@@ -80,7 +80,7 @@ impl Support {
 
     /// The rotation vector from the fixed frame.
     fn turn_of(&self, pose: &Pose) -> Vec3 {
-        Quat::from_matrix(self.pose.rotation.transpose() * pose.rotation).to_rotation_vector()
+        self.pose.rotation.turn_to(&pose.rotation)
     }
 }
 

@@ -11,7 +11,7 @@ use super::march::{Record, Section, march_along};
 use super::problem::Problem;
 use super::solution::Scheme;
 use super::variation::{Columns, Variation, vary_along};
-use crate::math::{Mat3, Quat, SimdLevel, Vec3, Vec6, Wrench, larger, largest, tangent_inverse};
+use crate::math::{Mat3, SimdLevel, Vec3, Vec6, Wrench, larger, largest, tangent_inverse};
 use crate::rod::Scale;
 
 /// By which power of e a disturbance may grow along a segment. So does what a Newton step leaves, for its second order: with more, segments would be
@@ -46,8 +46,7 @@ pub(crate) struct Chain {
 /// The lengths, moments and forces in which the unknowns are of order one: those of the length over which the rod bends.
 pub(crate) fn units(problem: &Problem, record: &Record) -> Scale {
     let scale = problem.rod.scale();
-    let carried = record.wrenches.iter().fold(0.0, |max: f64, w| max.max(w.linear.norm()));
-    let shorter = (1.0 + carried / scale.force).sqrt();
+    let shorter = (1.0 + record.largest_force() / scale.force).sqrt();
     Scale {
         length: scale.length / shorter,
         moment: scale.moment * shorter,
@@ -71,7 +70,7 @@ impl Chain {
                 growth + more > GROWTH || ahead > longest * rod.length() * (1.0 + 1e-9)
             };
             if held.next_if_eq(&node).is_some() || next && long > 0.0 {
-                let after = if node < n { carried_before(record, node) } else { Wrench::ZERO };
+                let after = if node < n { record.carried_beyond(node) } else { Wrench::ZERO };
                 let state = EndState::of(
                     &Node::of(problem, node),
                     &record.poses[node],
@@ -126,7 +125,7 @@ impl Chain {
         self.gaps.resize(self.joints.len(), [0.0; JOINT]);
         for (i, (joint, arrival)) in self.joints.iter().zip(&self.arrivals[1..]).enumerate() {
             let frame = &joint.state.pose;
-            let turn = turn_between(&frame.rotation, &arrival.pose.rotation);
+            let turn = frame.rotation.turn_to(&arrival.pose.rotation);
             let shift = frame.rotation.transpose_mul(arrival.pose.position - frame.position);
             let wrench = arrival.wrench - joint.beyond;
             let sizes = [
@@ -255,7 +254,7 @@ impl Chain {
 
     fn slopes(&self, joint: usize) -> GapSlopes {
         let (frame, arrival) = (&self.joints[joint].state.pose, &self.arrivals[joint + 1].pose);
-        let turn = turn_between(&frame.rotation, &arrival.rotation);
+        let turn = frame.rotation.turn_to(&arrival.rotation);
         GapSlopes {
             by_turn: tangent_inverse(Vec6::new(turn, Vec3::ZERO)).blocks[0][0],
             relative: frame.rotation.transpose() * arrival.rotation,
@@ -269,16 +268,6 @@ fn growth_along(problem: &Problem, record: &Record, e: usize) -> f64 {
     let rod = &problem.rod;
     let bending = rod.scale().moment * rod.length();
     rod.element_length(e) * (record.wrenches[e].linear.norm() / bending).sqrt()
-}
-
-/// The wrench that the element after a node carries, in the node's frame.
-fn carried_before(record: &Record, node: usize) -> Wrench {
-    record.poses[node].between(&record.poses[node + 1]).carry_wrench(record.wrenches[node])
-}
-
-/// The rotation vector from one orientation to another, in the axes of either.
-fn turn_between(from: &Mat3, to: &Mat3) -> Vec3 {
-    Quat::from_matrix(from.transpose() * *to).to_rotation_vector()
 }
 
 /// What turns an equation of the start, dimensionless by the rod's scale, into the units.

@@ -8,7 +8,7 @@
 use super::boundary::{EndState, borne, meet, renormalised};
 use super::march::{Record, Section, march, turned};
 use super::nodal::{Distance, Nodal};
-use super::problem::{Problem, Support};
+use super::problem::{Problem, Stretch, Support};
 use super::shooting::{Outcome, Search, Workspace};
 use super::solution::{Guess, Method, Scheme, Settings, Solution, SolveReport};
 use super::stability::{NEUTRAL, strength};
@@ -132,34 +132,6 @@ pub(crate) struct Mild {
     stretches: Vec<Stretch>,
 }
 
-/// A stretch of the rod between two nodes of which the places are held.
-pub(crate) struct Stretch {
-    pub from: usize,
-    pub to: usize,
-    /// From place to place, m.
-    pub chord: Vec3,
-    /// How long the rod is between, m.
-    pub length: f64,
-}
-
-/// The stretches of a rod, in order.
-pub(crate) fn stretches(problem: &Problem) -> Vec<Stretch> {
-    let nodes = problem.rod.mesh().nodes();
-    let held: Vec<_> = problem.supports().filter(|(_, support)| support.holds_position()).collect();
-    let stretch = |pair: &[(usize, &Support)]| {
-        let ((from, a), (to, b)) = (pair[0], pair[1]);
-        Stretch { from, to, chord: b.pose.position - a.pose.position, length: nodes[to] - nodes[from] }
-    };
-    held.windows(2).map(stretch).collect()
-}
-
-impl Stretch {
-    /// How much longer the rod is than its ends are apart, over its length.
-    pub fn spare(&self) -> f64 {
-        1.0 - self.chord.norm() / self.length
-    }
-}
-
 /// Loads beyond this, over `EI/L²`, are hard.
 const HARD_LOAD: f64 = 100.0;
 /// Less length to spare than this part of the length is hard.
@@ -170,7 +142,7 @@ const LEAST_SPARE: f64 = 1e-9;
 impl Mild {
     pub fn new(problem: &Problem) -> Self {
         let load = (HARD_LOAD / problem.load_size()).min(1.0);
-        Self { load, stretches: stretches(problem) }
+        Self { load, stretches: problem.stretches() }
     }
 
     /// Whether the problem itself is mild.
@@ -249,33 +221,31 @@ pub(crate) fn from_guess(
     workspace: &mut Workspace,
     report: &mut SolveReport,
 ) -> Search {
-    if !holds_state_of(guess, problem, &workspace.record) {
-        if !problem.between.is_empty() {
-            // What its supports between bear is not in the guess.
-            return from_rest(problem, settings, workspace, report);
-        }
-        march_from(guess, problem, workspace);
-        report.sweeps += 1;
+    if !is_known(guess, problem, workspace) {
+        return from_rest(problem, settings, workspace, report);
     }
-    let outcome = from_state(problem, settings, workspace, report);
-    found(problem, outcome, workspace)
+    put_guess(guess, problem, workspace, report);
+    move_on(problem, settings, workspace, report)
 }
 
-/// Puts a guess's state into the workspace where it is not there yet, or the rod at rest, between the supports as they are now.
-pub(crate) fn put_state(problem: &Problem, guess: Option<&Guess>, workspace: &mut Workspace) {
-    let Some(guess) = guess else {
-        return lay_out(problem, |_| Vec3::ZERO, &mut workspace.record);
-    };
-    if !holds_state_of(guess, problem, &workspace.record) {
-        march_from(guess, problem, workspace);
-    }
-    put_between_supports(problem, &mut workspace.record.poses);
+/// Whether the state that a guess stands for is at hand: what supports between the ends bear is not in the guess itself.
+pub(crate) fn is_known(guess: &Guess, problem: &Problem, workspace: &Workspace) -> bool {
+    problem.between.is_empty() || holds_state_of(guess, problem, &workspace.record)
 }
 
-/// Puts the state into the workspace that a march from a guess makes.
-fn march_from(guess: &Guess, problem: &Problem, workspace: &mut Workspace) {
+/// Puts the state that a guess stands for into the workspace, where it is not there yet: what a march from the guess makes.
+pub(crate) fn put_guess(
+    guess: &Guess,
+    problem: &Problem,
+    workspace: &mut Workspace,
+    report: &mut SolveReport,
+) {
+    if holds_state_of(guess, problem, &workspace.record) {
+        return;
+    }
     let end = Section { pose: guess.pose, wrench: guess.wrench };
     march(workspace.simd, &problem.rod, Scheme::Element, &problem.loads, end, &mut workspace.record);
+    report.sweeps += 1;
 }
 
 /// Moves on from the state in the workspace, put between the supports where they are now.
@@ -362,7 +332,7 @@ fn note(distance: Option<Distance>, report: &mut SolveReport) -> Option<Distance
 }
 
 /// Whether a record is of the solution that a guess comes from.
-pub(crate) fn holds_state_of(guess: &Guess, problem: &Problem, record: &Record) -> bool {
+fn holds_state_of(guess: &Guess, problem: &Problem, record: &Record) -> bool {
     let n = problem.rod.elements();
     if record.wrenches.len() != n {
         return false;
@@ -426,11 +396,9 @@ pub(crate) fn recall(problem: &Problem, solution: &Solution, record: &mut Record
     let mut held = problem.between.iter().zip(borne).rev().peekable();
     for e in (0..last).rev() {
         let node = e + 1;
-        let pose = &record.poses[node];
-        let beyond = pose.between(&record.poses[node + 1]).carry_wrench(record.wrenches[node]);
-        let mut carried = beyond + problem.loads.body[node] + turned(pose, problem.loads.world[node]);
+        let mut carried = record.carried_with_loads(node, &problem.loads);
         if let Some((_, reaction)) = held.next_if(|((at, _), _)| *at == node) {
-            carried += turned(pose, Wrench::new(reaction.moment, reaction.force));
+            carried += turned(&record.poses[node], Wrench::new(reaction.moment, reaction.force));
         }
         record.wrenches[e] = carried;
     }
@@ -447,7 +415,7 @@ pub(crate) fn move_on(
     found(problem, outcome, workspace)
 }
 
-/// Moves the rod from the state in the workspace to rest, as from near an equilibrium.
+/// Moves the rod from the state in the workspace to rest, as one that has just been laid out.
 pub(crate) fn fall(
     problem: &Problem,
     settings: &Settings,
@@ -589,8 +557,7 @@ pub(crate) fn balance(problem: &Problem, record: &mut Record) {
     for e in (0..last).rev() {
         let node = e + 1;
         let pose = &record.poses[node];
-        let beyond = pose.between(&record.poses[node + 1]).carry_wrench(record.wrenches[node]);
-        let mut balanced = beyond + problem.loads.body[node] + turned(pose, problem.loads.world[node]);
+        let mut balanced = record.carried_with_loads(node, &problem.loads);
         if let Some(support) = problem.support(node) {
             if let Some(grip) = &support.grip {
                 balanced += turned(pose, grip.wrench(pose));
@@ -609,10 +576,9 @@ pub(crate) fn found(problem: &Problem, outcome: Outcome, workspace: &Workspace) 
     let record = &workspace.record;
     let n = problem.rod.elements();
     let guess = Guess::new(record.poses[n], record.wrenches[n - 1]);
-    let carried = record.poses[0].between(&record.poses[1]).carry_wrench(record.wrenches[0]);
     Search {
         state: EndState::from_guess(problem, &guess),
-        start: Section { pose: record.poses[0], wrench: carried },
+        start: Section { pose: record.poses[0], wrench: record.carried_beyond(0) },
         outcome,
         inverse: None,
     }

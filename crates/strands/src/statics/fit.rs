@@ -17,9 +17,9 @@ pub(crate) fn unfit(problem: &Problem, settings: &Settings) -> Option<FailureRea
     if problem.start.grip.is_some() {
         return Some(FailureReason::GripAtStart);
     }
-    let nodes_between = problem.between.iter().map(|(node, _)| *node);
-    let growing = nodes_between.clone().zip(nodes_between.clone().skip(1)).all(|(a, b)| a < b);
-    if let Some(node) = nodes_between.clone().find(|node| *node == 0 || *node + 1 >= nodes || !growing) {
+    let growing = problem.between.windows(2).all(|pair| pair[0].0 < pair[1].0);
+    let mut between = problem.between.iter().map(|(node, _)| *node);
+    if let Some(node) = between.find(|node| *node == 0 || *node + 1 >= nodes || !growing) {
         return Some(FailureReason::SupportAt { node, last: nodes - 1 });
     }
     let shoots = settings.method == Method::Shooting || settings.scheme == Scheme::Multistep;

@@ -46,6 +46,21 @@ impl Record {
             self.strains.resize(elements, [Strain::ZERO; 2]);
         }
     }
+
+    /// The wrench that the element after a node carries, in that node's frame.
+    pub fn carried_beyond(&self, node: usize) -> Wrench {
+        self.poses[node].between(&self.poses[node + 1]).carry_wrench(self.wrenches[node])
+    }
+
+    /// The same with what acts on the node: what the element before it carries where nothing holds the node.
+    pub fn carried_with_loads(&self, node: usize, loads: &NodalLoads) -> Wrench {
+        self.carried_beyond(node) + loads.body[node] + turned(&self.poses[node], loads.world[node])
+    }
+
+    /// The largest force that an element carries, N.
+    pub fn largest_force(&self) -> f64 {
+        self.wrenches.iter().fold(0.0, |max: f64, w| max.max(w.linear.norm()))
+    }
 }
 
 /// Watches a march go by.

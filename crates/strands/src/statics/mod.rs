@@ -26,7 +26,7 @@ mod variation;
 
 pub use continuation::{Event, EventKind, Path, PathEnd, PathError, PathPoint, PathSettings, follow_path};
 pub use plan::{Plan, plan};
-pub use problem::{Problem, Support};
+pub use problem::{Problem, Stretch, Support};
 pub use refine::{RefineError, Refined, refine};
 pub use search::{SearchSettings, equilibria};
 pub use shooting::Workspace;
@@ -38,8 +38,7 @@ pub use solution::{
 use crate::math::{Pose, Vec3, Vec6};
 use crate::rod::{Kinematics, Order};
 use boundary::{EndState, loaded_start};
-use equilibrium::{Stretch, stretches};
-use march::{Record, turned};
+use march::Record;
 use plan::Way;
 use shooting::{Outcome, Search, shoot};
 
@@ -73,10 +72,11 @@ fn concluded(
         if search.outcome == Outcome::Converged { stability::morse_index(problem, workspace) } else { None };
     let reason = match search.outcome {
         Outcome::Converged => {
-            let found = solution(problem, search, workspace, report.clone());
+            let found = solution(problem, search, workspace, report);
             if found.is_finite() {
                 return Ok(found);
             }
+            report = found.report;
             FailureReason::NotFinite { node: first_bad_node(workspace) }
         }
         Outcome::Singular => FailureReason::Singular,
@@ -111,7 +111,13 @@ pub fn nearest(
         return Err(not_tried(problem, reason, guess, workspace, report));
     }
     report.restart(Method::Equilibrium);
-    equilibrium::put_state(problem, guess, workspace);
+    match guess {
+        Some(guess) => {
+            equilibrium::put_guess(guess, problem, workspace, &mut report);
+            equilibrium::put_between_supports(problem, &mut workspace.record.poses);
+        }
+        None => equilibrium::lay_out(problem, |_| Vec3::ZERO, &mut workspace.record),
+    }
     let search = equilibrium::nearest(problem, &settings, workspace, &mut report);
     concluded(problem, &settings, &search, workspace, report)
 }
@@ -343,7 +349,7 @@ fn refused(problem: &Problem, settings: &Settings) -> Option<FailureReason> {
         return None;
     }
     let nodes = problem.rod.mesh().nodes();
-    let too_far = stretches(problem).into_iter().find(|stretch| stretch.spare() < -1e-12)?;
+    let too_far = problem.stretches().into_iter().find(|stretch| stretch.spare() < -1e-12)?;
     let Stretch { from, to, chord, length } = too_far;
     Some(FailureReason::OutOfReach { distance: chord.norm(), length, from: nodes[from], to: nodes[to] })
 }
@@ -352,7 +358,7 @@ fn refused(problem: &Problem, settings: &Settings) -> Option<FailureReason> {
 fn too_coarse(problem: &Problem, workspace: &Workspace) -> Option<FailureReason> {
     let rod = &problem.rod;
     let longest = (0..rod.elements()).map(|e| rod.element_length(e)).fold(0.0, f64::max);
-    let tension = workspace.record.wrenches.iter().fold(0.0, |max: f64, w| max.max(w.linear.norm()));
+    let tension = workspace.record.largest_force();
     let scale = rod.scale();
     let bending_length = scale.length * (scale.force / tension).sqrt();
     let needed = (2.0 * scale.length / bending_length).ceil();
@@ -395,7 +401,7 @@ fn failure(
     let mut nearest = solution(problem, search, workspace, report);
     if !nearest.is_finite() {
         // What has overflowed is nothing to look at: the rod as it is laid out before a search.
-        equilibrium::put_state(problem, None, workspace);
+        equilibrium::lay_out(problem, |_| Vec3::ZERO, &mut workspace.record);
         let laid_out = equilibrium::found(problem, Outcome::Stalled, workspace);
         nearest = solution(problem, &laid_out, workspace, nearest.report);
     }
@@ -459,9 +465,7 @@ fn solution(problem: &Problem, search: &Search, workspace: &Workspace, report: S
 /// What holds a node between the ends: the jump of the wrench that the rod carries, without the loads.
 fn reaction_between(problem: &Problem, record: &Record, node: usize) -> Reaction {
     let pose = &record.poses[node];
-    let beyond = pose.between(&record.poses[node + 1]).carry_wrench(record.wrenches[node]);
-    let loads = problem.loads.body[node] + turned(pose, problem.loads.world[node]);
-    let held = record.wrenches[node - 1] - beyond - loads;
+    let held = record.wrenches[node - 1] - record.carried_with_loads(node, &problem.loads);
     Reaction {
         s: problem.rod.mesh().nodes()[node],
         force: pose.rotation * held.linear,

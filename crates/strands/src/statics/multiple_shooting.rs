@@ -13,11 +13,11 @@ pub(crate) use from_rest::from_rest;
 
 use super::almost_block_diagonal::{AlmostBlockDiagonal, Twelve};
 use super::chain::{Chain, units};
-use super::equilibrium::{balance, found, holds_state_of};
-use super::march::{Record, Section, march};
+use super::equilibrium::{balance, found, is_known, put_guess};
+use super::march::Record;
 use super::problem::Problem;
 use super::shooting::{Outcome, Search, Workspace};
-use super::solution::{Guess, Method, Scheme, Settings, SolveReport};
+use super::solution::{Guess, Method, Settings, SolveReport};
 use crate::math::larger;
 use crate::rod::Scale;
 
@@ -53,15 +53,10 @@ pub(crate) fn from_guess(
     report: &mut SolveReport,
 ) -> Search {
     report.method = Method::MultipleShooting;
-    if !holds_state_of(guess, problem, &workspace.record) {
-        if !problem.between.is_empty() {
-            // What its supports between bear is not in the guess.
-            return from_rest(problem, settings, workspace, report);
-        }
-        let end = Section { pose: guess.pose, wrench: guess.wrench };
-        march(workspace.simd, &problem.rod, Scheme::Element, &problem.loads, end, &mut workspace.record);
-        report.sweeps += 1;
+    if !is_known(guess, problem, workspace) {
+        return from_rest(problem, settings, workspace, report);
     }
+    put_guess(guess, problem, workspace, report);
     let outcome = newton(problem, settings, 1.0, workspace, report);
     found(problem, outcome, workspace)
 }

@@ -151,7 +151,7 @@ fn sampled(workspace: &Workspace) -> [Mat3; SAMPLES] {
 }
 
 fn largest_turn(before: &[Mat3; SAMPLES], after: &[Mat3; SAMPLES]) -> f64 {
-    let turn = |(a, b): (&Mat3, &Mat3)| Quat::from_matrix(a.transpose() * *b).to_rotation_vector().norm();
+    let turn = |(a, b): (&Mat3, &Mat3)| a.turn_to(b).norm();
     before.iter().zip(after).map(turn).fold(0.0, f64::max)
 }
 

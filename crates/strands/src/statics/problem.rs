@@ -102,7 +102,38 @@ pub struct Problem {
     pub between: Vec<(usize, Support)>,
 }
 
+/// A stretch of a rod between two nodes of which the places are held.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Stretch {
+    /// The node where it begins.
+    pub from: usize,
+    /// The node where it ends.
+    pub to: usize,
+    /// From place to place, m.
+    pub chord: Vec3,
+    /// How long the rod is between, m.
+    pub length: f64,
+}
+
+impl Stretch {
+    /// How much longer the rod is than its ends are apart, over its length; negative where it has to stretch.
+    pub fn spare(&self) -> f64 {
+        1.0 - self.chord.norm() / self.length
+    }
+}
+
 impl Problem {
+    /// The stretches between places that are held in all three directions, in order.
+    pub fn stretches(&self) -> Vec<Stretch> {
+        let nodes = self.rod.mesh().nodes();
+        let held: Vec<_> = self.supports().filter(|(_, support)| support.holds_position()).collect();
+        let stretch = |pair: &[(usize, &Support)]| {
+            let ((from, a), (to, b)) = (pair[0], pair[1]);
+            Stretch { from, to, chord: b.pose.position - a.pose.position, length: nodes[to] - nodes[from] }
+        };
+        held.windows(2).map(stretch).collect()
+    }
+
     /// The two ends and the nodes that are held between, in order, and how.
     pub fn supports(&self) -> impl DoubleEndedIterator<Item = (usize, &Support)> {
         let between = self.between.iter().map(|(node, support)| (*node, support));

@@ -185,9 +185,9 @@ impl Seeker<'_> {
         let (n, length) = (poses.len() - 1, self.problem.rod.length());
         let same = |other: &Solution| {
             [n / 4, n / 2, 3 * n / 4, n].iter().all(|i| {
-                let apart = other.poses[*i].between(&poses[*i]);
-                Quat::from_matrix(apart.rotation).to_rotation_vector().norm() < SAME
-                    && apart.position.norm() < SAME * length
+                let (a, b) = (&other.poses[*i], &poses[*i]);
+                a.rotation.turn_to(&b.rotation).norm() < SAME
+                    && (b.position - a.position).norm() < SAME * length
             })
         };
         self.found.iter().any(|found| same(&found.solution))

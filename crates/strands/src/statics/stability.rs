@@ -29,8 +29,7 @@ pub(crate) fn morse_index(problem: &Problem, workspace: &mut Workspace) -> Optio
 
 /// The forces that act and that the rod carries, over `EI/L²`, and one for its own: what stiffnesses are measured by.
 pub(crate) fn strength(problem: &Problem, record: &Record) -> f64 {
-    let carried = record.wrenches.iter().fold(0.0, |max: f64, w| max.max(w.linear.norm()));
-    1.0 + problem.load_size() + carried / problem.rod.scale().force
+    1.0 + problem.load_size() + record.largest_force() / problem.rod.scale().force
 }
 
 /// Whether the loads have one: dead forces have, the rod's own energy and springs have, and what bears on a support does no work.
