@@ -72,7 +72,8 @@ impl<V: Vector> Carried<V> {
 }
 
 /// `σ̄ = T(x)ᵀ w`: the mean along an element of the wrench that it carries.
-pub(crate) fn mean_wrench(x: Vec6, w: Wrench) -> Stress {
+#[inline(always)]
+pub(crate) fn mean_wrench<V: Vector>(x: Vec6<V>, w: Wrench<V>) -> Stress<V> {
     Carried::new(&x, &w).mean
 }
 

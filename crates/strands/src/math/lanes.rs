@@ -4,7 +4,7 @@
 //! instruction of the widest kind that the feature allows, and elsewhere into as many narrow ones as it takes. The
 //! arithmetic is the same in either case, so the results are the same bits.
 
-use super::{Real, Vec3, Vec6};
+use super::{Mat3, Pose, Real, Vec3, Vec6};
 use core::ops::{Add, AddAssign, Div, Mul, Neg, Sub, SubAssign};
 
 /// `N` numbers side by side.
@@ -84,6 +84,10 @@ impl<const N: usize> Real for Lanes<N> {
         Self::from_fn(|i| self.0[i].abs())
     }
     #[inline(always)]
+    fn sqrt(self) -> Self {
+        Self::from_fn(|i| self.0[i].sqrt())
+    }
+    #[inline(always)]
     fn at_most(self, bound: f64) -> [bool; N] {
         core::array::from_fn(|i| self.0[i] <= bound)
     }
@@ -131,5 +135,21 @@ impl<const N: usize> Vec6<Vec3<Lanes<N>>> {
     #[inline(always)]
     pub(crate) fn lane(&self, i: usize) -> Vec6 {
         Vec6::new(self.angular.lane(i), self.linear.lane(i))
+    }
+}
+
+impl<const N: usize> Pose<Vec3<Lanes<N>>> {
+    /// Puts a pose into one lane.
+    #[inline(always)]
+    pub(crate) fn put(&mut self, i: usize, pose: &Pose) {
+        (0..3).for_each(|k| self.rotation.cols[k].put(i, pose.rotation.cols[k]));
+        self.position.put(i, pose.position);
+    }
+
+    /// The pose in one lane.
+    #[inline(always)]
+    pub(crate) fn lane(&self, i: usize) -> Pose {
+        let [a, b, c] = &self.rotation.cols;
+        Pose { rotation: Mat3::from_cols(a.lane(i), b.lane(i), c.lane(i)), position: self.position.lane(i) }
     }
 }

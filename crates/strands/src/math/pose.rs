@@ -1,6 +1,10 @@
 //! Poses: the group SE(3) of frames `(R, p)`, its exponential, logarithm and tangent.
 
+use super::series::{arcsine_series, bernoulli_series};
 use super::{ExpCoefficients, Mat3, Mat6, Quat, Real, Vec3, Vec6, Vector, exp_coefficients};
+
+/// A little below it, so that a whole radian is within.
+const COS_OF_HALF_A_RADIAN: f64 = 0.8775;
 
 /// A frame: an orientation whose columns are the directors, and a position, m.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -72,6 +76,25 @@ impl<R: Real> Pose<Vec3<R>> {
         );
         let uv = u.cross(v);
         Self { rotation, position: v + uv * k.b + u.cross(uv) * k.c }
+    }
+
+    /// The logarithm of a pose that turns by less than a radian, without a branch; NaN in its turn where it turns further. By the sine of
+    /// a quarter of the angle, whose inverse is a short series.
+    #[inline(always)]
+    pub(crate) fn log_of_small_turn(&self) -> Vec6<Vec3<R>> {
+        let ([a, b, c], half) = (self.rotation.cols, R::splat(0.5));
+        let sine = Vec3::new(b.z - c.y, c.x - a.z, a.y - b.x) * half;
+        let cos = (a.x + b.y + c.z - R::one()) * half;
+        let cos_half = ((R::one() + cos) * half).sqrt();
+        let cos_quarter = ((R::one() + cos_half) * half).sqrt();
+        let quarters = cos_half * cos_quarter;
+        let sine_quarter = sine * (R::splat(0.25) / quarters);
+        let q = sine_quarter.dot(sine_quarter);
+        let known = R::select((-cos_half).at_most(-COS_OF_HALF_A_RADIAN), R::one(), R::splat(f64::NAN));
+        let u = sine * (arcsine_series(q) / quarters * known);
+        let p = self.position;
+        let up = u.cross(p);
+        Vec6::new(u, p - up * half + u.cross(up) * bernoulli_series(u.dot(u)))
     }
 
     /// The inverse.

@@ -43,6 +43,9 @@ pub trait Real:
     /// Absolute value (of the value part, for a dual number).
     fn abs(self) -> Self;
 
+    /// Square root.
+    fn sqrt(self) -> Self;
+
     /// Where `self <= bound`, lane by lane. NaN compares false.
     fn at_most(self, bound: f64) -> Self::Mask;
 
@@ -69,6 +72,10 @@ impl Real for f64 {
     #[inline(always)]
     fn abs(self) -> Self {
         f64::abs(self)
+    }
+    #[inline(always)]
+    fn sqrt(self) -> Self {
+        f64::sqrt(self)
     }
     #[inline(always)]
     fn at_most(self, bound: f64) -> bool {

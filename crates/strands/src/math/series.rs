@@ -130,6 +130,58 @@ fn with_larger_angles<R: Real>(t: R, tiny: R::Mask, short: ExpCoefficients<R>) -
     }
 }
 
+/// `arcsin(x)/x` of `x²`, exact to round-off up to 1/16.
+#[inline(always)]
+pub(super) fn arcsine_series<R: Real>(square: R) -> R {
+    /// `(2k)!/(4^k k!² (2k + 1))`.
+    const TERMS: [f64; 14] = {
+        let mut terms = [1.0; 14];
+        let (mut k, mut binomial) = (1, 1.0);
+        while k < 14 {
+            binomial *= (2 * k - 1) as f64 / (2 * k) as f64;
+            terms[k] = binomial / (2 * k + 1) as f64;
+            k += 1;
+        }
+        terms
+    };
+    sum(&TERMS, square)
+}
+
+/// `(1 − (θ/2) cot(θ/2))/θ²` of `t = θ²`, up to one.
+#[inline(always)]
+pub(super) fn bernoulli_series<R: Real>(t: R) -> R {
+    /// `|B₂ₖ|/(2k)!`.
+    const TERMS: [f64; 11] = [
+        1.0 / 12.0,
+        1.0 / 720.0,
+        1.0 / 30240.0,
+        1.0 / 1_209_600.0,
+        1.0 / 47_900_160.0,
+        691.0 / 1_307_674_368_000.0,
+        1.0 / 74_724_249_600.0,
+        3617.0 / 10_670_622_842_880_000.0,
+        43867.0 / 5_109_094_217_170_944_000.0,
+        174_611.0 / 330.0 / 2_432_902_008_176_640_000.0,
+        854_513.0 / 138.0 / 1_124_000_727_777_607_680_000.0,
+    ];
+    sum(&TERMS, t)
+}
+
+/// A polynomial, its even and odd terms apart, which halves the chain of operations.
+#[inline(always)]
+fn sum<R: Real, const N: usize>(terms: &[f64; N], t: R) -> R {
+    let square = t * t;
+    let (mut even, mut odd) = (R::zero(), R::zero());
+    for k in (0..N).rev() {
+        if k % 2 == 0 {
+            even = even * square + R::splat(terms[k]);
+        } else {
+            odd = odd * square + R::splat(terms[k]);
+        }
+    }
+    even + odd * t
+}
+
 struct Exact {
     b: f64,
     c: f64,

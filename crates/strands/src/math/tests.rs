@@ -53,6 +53,18 @@ proptest! {
     #![proptest_config(ProptestConfig::with_cases(2000))]
 
     #[test]
+    fn the_log_of_a_small_turn_is_the_log_and_says_where_the_turn_is_large(x in twist()) {
+        let pose = Pose::exp(x);
+        let (log, quick) = (pose.log(), pose.log_of_small_turn());
+        let angle = x.angular.norm();
+        if angle <= 1.0 {
+            prop_assert!((quick - log).max_abs() <= 4e-15 * (1.0 + log.linear.max_abs()), "{quick:?} {log:?}");
+        } else if angle > 1.02 {
+            prop_assert!(!quick.angular.is_finite());
+        }
+    }
+
+    #[test]
     fn log_undoes_exp_from_zero_to_half_a_turn(x in twist()) {
         let back = Pose::exp(x).log();
         let angle = x.angular.norm();

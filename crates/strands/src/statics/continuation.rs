@@ -334,7 +334,7 @@ impl Follower<'_> {
         let mut at = at;
         let mut problem = self.problem(at, here)?;
         let mut record = here.record.clone();
-        ahead.take(&problem, 1.0, &mut record);
+        ahead.take(&problem, level, 1.0, &mut record);
         let mut nodal = ahead;
         let mut report = SolveReport { method: Method::Equilibrium, path_steps: 1, ..SolveReport::default() };
         loop {
@@ -366,7 +366,7 @@ impl Follower<'_> {
             }
             at += change;
             problem = self.problem(at, here)?;
-            nodal.take(&problem, 1.0, &mut record);
+            nodal.take(&problem, level, 1.0, &mut record);
             report.iterations += 1;
         }
     }
@@ -417,7 +417,7 @@ impl Follower<'_> {
         report: SolveReport,
         before: &Tangent,
     ) -> Result<Point, String> {
-        finish(&problem, &mut record);
+        finish(&problem, self.workspace.simd, &mut record);
         let level = self.workspace.simd;
         let mut nodal = Nodal::default();
         let lent = RIGID_COMPLIANCE;

@@ -7,7 +7,7 @@
 
 use super::boundary::{EndState, borne, meet, renormalised};
 use super::march::{Record, Section, march, turned};
-use super::nodal::{Distance, Nodal};
+use super::nodal::{Distance, Nodal, take_strains};
 use super::problem::{Problem, Stretch, Support};
 use super::shooting::{Outcome, Search, Workspace};
 use super::solution::{Guess, Method, Scheme, Settings, Solution, SolveReport};
@@ -263,7 +263,7 @@ fn from_state(
 
 /// Where nothing but the held end has moved, and that little, moves the rod on as it answers to that. Gives whether it did.
 fn led_by_end(problem: &Problem, workspace: &mut Workspace) -> bool {
-    let Workspace { record, nodal, .. } = workspace;
+    let Workspace { record, nodal, simd, .. } = workspace;
     let last = problem.rod.elements();
     if !nodal.is_of(record) || !problem.end.fixed.contains(&true) {
         return false;
@@ -279,7 +279,7 @@ fn led_by_end(problem: &Problem, workspace: &mut Workspace) -> bool {
         return false;
     }
     nodal.step_with_end(&record.poses[last], by);
-    nodal.take(problem, 1.0, record);
+    nodal.take(problem, *simd, 1.0, record);
     true
 }
 
@@ -291,26 +291,27 @@ pub(crate) fn nearest(
     report: &mut SolveReport,
 ) -> Search {
     let Workspace { record, nodal, simd, .. } = &mut *workspace;
+    let simd = *simd;
     let mut outcome = Outcome::Stalled;
     let lend = WARM.lent / (1.0 + problem.load_size());
     let lent = |residual: f64| (lend * residual.min(MOST_SLACK)).max(STEADY_LENT);
     // From close by little is lent from the first step on.
-    let first = nodal.linearise(problem, *simd, lent(MOST_SLACK), record);
+    let first = nodal.linearise(problem, simd, lent(MOST_SLACK), record);
     let mut residual = first.map_or(f64::NAN, |distance| distance.residual());
     for _ in 0..settings.max_iterations {
-        if note(nodal.linearise(problem, *simd, lent(residual), record), report).is_none() {
+        if note(nodal.linearise(problem, simd, lent(residual), record), report).is_none() {
             outcome = Outcome::NotFinite;
             break;
         }
         residual = report.residual;
         report.factorisations += 1;
-        let solved = nodal.solve(*simd, 0.0).is_some();
+        let solved = nodal.solve(simd, 0.0).is_some();
         if residual <= settings.tolerance {
             // One step more costs little and takes what is left down to round-off.
             if solved && nodal.step_size() <= WARM.stride {
-                nodal.take(problem, 1.0, record);
+                nodal.take(problem, simd, 1.0, record);
             }
-            finish(problem, record);
+            finish(problem, simd, record);
             outcome = Outcome::Converged;
             break;
         }
@@ -319,7 +320,7 @@ pub(crate) fn nearest(
             break;
         }
         report.iterations += 1;
-        nodal.take(problem, (WARM.stride / nodal.step_size()).min(1.0), record);
+        nodal.take(problem, simd, (WARM.stride / nodal.step_size()).min(1.0), record);
     }
     found(problem, outcome, workspace)
 }
@@ -454,16 +455,16 @@ fn relax(
             report.factorisations += 1;
             if stable.is_none_or(|negative| negative == 0) {
                 if stable.is_some() && nodal.step_size() <= plan.stride {
-                    nodal.take(problem, 1.0, record);
+                    nodal.take(problem, simd, 1.0, record);
                 }
-                finish(problem, record);
+                finish(problem, simd, record);
                 return Outcome::Converged;
             }
             let Some(enough) = push_off(simd, nodal, report) else {
                 return Outcome::Singular;
             };
             drag = enough;
-            nodal.take(problem, plan.stride / nodal.step_size(), record);
+            nodal.take(problem, simd, plan.stride / nodal.step_size(), record);
             last = f64::INFINITY;
             continue;
         }
@@ -481,7 +482,7 @@ fn relax(
         if !size.is_finite() {
             return Outcome::NotFinite;
         }
-        nodal.take(problem, (plan.stride / size).min(1.0), record);
+        nodal.take(problem, simd, (plan.stride / size).min(1.0), record);
         drag = if size > 2.0 * plan.stride {
             // Hardly resisted: the time step was too long.
             (2.0 * drag).max(0.1 * SOME_DRAG * strength)
@@ -532,18 +533,12 @@ fn push_off(simd: SimdLevel, nodal: &mut Nodal, report: &mut SolveReport) -> Opt
 
 /// Balances the nodes, and gives the elements the strains that belong to what they carry, so that what is not free is as it must be to the
 /// last bit.
-pub(crate) fn finish(problem: &Problem, record: &mut Record) {
+pub(crate) fn finish(problem: &Problem, simd: SimdLevel, record: &mut Record) {
     let rod = &problem.rod;
     balance(problem, record);
-    if rod.order() != Order::Second {
-        return;
-    }
     // The strains of a general element are solved for already.
-    for (e, point) in rod.diagonal_points().into_iter().flatten().enumerate() {
-        let x = record.poses[e].between(&record.poses[e + 1]).log();
-        let strain = (point.rest + point.compliance.scale(element::mean_wrench(x, record.wrenches[e])))
-            * (1.0 / rod.element_length(e));
-        record.strains[e] = [strain; 2];
+    if let (Order::Second, Some(points)) = (rod.order(), rod.diagonal_points()) {
+        take_strains(rod, points, simd, record);
     }
 }
 

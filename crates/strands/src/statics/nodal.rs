@@ -16,58 +16,58 @@
 
 mod elimination;
 
-use elimination::{Block, Eliminate};
+use elimination::{Block, Eliminate, Inertia, Square, pair, parts};
 
 use super::boundary::{displacements, displacements_slope, meet};
 use super::march::Record;
 use super::problem::Problem;
 use crate::element::{self, DiagonalPoint, Resistance, diagonal_resistance};
 use crate::math::{
-    Kernel, Lanes, Mat3, Mat6, Pose, Quat, Real, SimdLevel, Vec3, Vec6, Wrench, dispatch, larger, largest,
+    Kernel, Lanes, Mat3, Mat6, Pose, Real, SimdLevel, Vec3, Vec6, Wrench, dispatch, larger, largest,
 };
 use crate::rod::{Order, Rod};
 
 /// How many elements are linearised side by side.
 const BATCH: usize = 8;
 type Side = Vec3<Lanes<BATCH>>;
-type Row = Lanes<8>;
 
 /// An element, linearised.
 #[derive(Clone, Copy, Debug)]
-struct Link {
-    stiffness: Block,
-    carried: Wrench,
-    pull: Wrench,
+struct Link<R> {
+    stiffness: Square<R>,
+    carried: Wrench<Vec3<R>>,
+    pull: Wrench<Vec3<R>>,
 }
 
 /// How a node is held: its free displacements, one a column, which freedoms are fixed, and the stiffness that comes from how the free
 /// displacements turn.
 #[derive(Clone, Debug)]
-struct Hold {
+struct Hold<R> {
     node: usize,
-    free: Mat6,
-    fixed: [bool; 6],
-    curved: Mat6,
+    free: Square<R>,
+    /// One where fixed, zero where free.
+    fixed: [R; 6],
+    curved: Square<R>,
 }
 
 /// The linear system, and its solution.
 #[derive(Clone, Debug, Default)]
-pub(crate) struct Nodal {
+pub(crate) struct Nodal<R = f64> {
     axes: Axes,
-    links: Vec<Link>,
+    links: Vec<Link<R>>,
     /// What acts on each node beside its elements, and how that changes with its frame, where it does.
-    loads: Vec<Wrench>,
-    load_slopes: Vec<(usize, Mat6)>,
-    holds: Vec<Hold>,
+    loads: Vec<Wrench<Vec3<R>>>,
+    load_slopes: Vec<(usize, Square<R>)>,
+    holds: Vec<Hold<R>>,
     /// Where the nodes are.
-    places: Vec<Vec3>,
+    places: Vec<Vec3<R>>,
     /// How the variation of a node follows from that of the one after it; in its seventh column what it has by itself.
-    follows: Vec<Block>,
-    pub steps: Vec<Vec6>,
+    follows: Vec<Block<R>>,
+    pub steps: Vec<Vec6<Vec3<R>>>,
     /// Another right-hand side, where one is asked for, and its solution.
-    pub others: Vec<Wrench>,
-    pub other_steps: Vec<Vec6>,
-    other_pulls: Vec<Wrench>,
+    pub others: Vec<Wrench<Vec3<R>>>,
+    pub other_steps: Vec<Vec6<Vec3<R>>>,
+    other_pulls: Vec<Wrench<Vec3<R>>>,
 }
 
 /// How far a state is from equilibrium.
@@ -125,8 +125,9 @@ impl Nodal {
         self.holds.clear();
         for (node, end) in problem.supports() {
             let pose = axes.frame(&state.poses[node]);
-            let curved = displacements_slope(end, &pose, self.imbalance(node));
-            self.holds.push(Hold { node, free: displacements(end, &pose), fixed: end.fixed, curved });
+            let curved = displacements_slope(end, &pose, self.imbalance(node)).to_rows();
+            let free = displacements(end, &pose).to_rows();
+            self.holds.push(Hold { node, free, fixed: end.fixed.map(f64::from), curved });
         }
         let carried = self.links.iter().fold(1.0, |max: f64, link| max.max(link.carried.max_abs()));
         let out_of_balance = |i: usize| largest(&self.out_of_balance(i).to_array());
@@ -146,13 +147,9 @@ impl Nodal {
             let Resistance { stiffness, pull, slack } =
                 element::resistance(rod, e, w, &relative, &pose, &mut state.strains[e], share)?;
             worst = larger(worst, largest(&axes.shift(slack).to_array()));
-            let stiffness = axes.stiffness(&Mat6 { blocks: stiffness });
-            let mut rows = [Row::zero(); 6];
-            for (row, numbers) in rows.iter_mut().zip(stiffness.to_rows()) {
-                row.0[..6].copy_from_slice(&numbers);
-            }
+            let stiffness = axes.stiffness(&Mat6 { blocks: stiffness }).to_rows();
             let carried = axes.wrench(pose.carry_wrench(w));
-            self.links.push(Link { stiffness: rows, carried, pull: axes.wrench(pull) });
+            self.links.push(Link { stiffness, carried, pull: axes.wrench(pull) });
         }
         Some(worst)
     }
@@ -176,7 +173,7 @@ impl Nodal {
             }
             self.loads.push(load);
             if slope != Mat6::ZERO {
-                self.load_slopes.push((i, slope));
+                self.load_slopes.push((i, slope.to_rows()));
             }
         }
         for (node, end) in problem.supports() {
@@ -191,7 +188,7 @@ impl Nodal {
             let dead = dead_moment_slope(at, wrench.linear);
             let arm = Mat3::hat(at);
             let moment = [by_turn + arm * force[0] + dead[0], arm * force[1] + dead[1]];
-            self.load_slopes.push((node, Mat6 { blocks: [moment, force] }));
+            self.load_slopes.push((node, Mat6 { blocks: [moment, force] }.to_rows()));
         }
         self.load_slopes.sort_unstable_by_key(|(node, _)| *node);
     }
@@ -200,33 +197,9 @@ impl Nodal {
     fn out_of_balance(&self, node: usize) -> Wrench {
         let force = self.imbalance(node);
         match self.holds.iter().find(|hold| hold.node == node) {
-            Some(hold) => hold.free.transpose().mul_vec(force),
+            Some(hold) => hold.along_free(force),
             None => Wrench::new(force.angular - self.places[node].cross(force.linear), force.linear),
         }
-    }
-
-    /// The wrench that acts on a node, in the fixed axes; at a held node the opposite of the reaction.
-    fn imbalance(&self, node: usize) -> Wrench {
-        let mut wrench = self.loads[node];
-        if let Some(link) = self.links.get(node) {
-            wrench += link.carried;
-        }
-        if node > 0 {
-            wrench -= self.links[node - 1].carried;
-        }
-        wrench
-    }
-
-    /// What acts on a node when the elements have taken up their slack: the right-hand side of the system.
-    pub fn acting(&self, node: usize) -> Wrench {
-        let mut wrench = self.imbalance(node);
-        if let Some(link) = self.links.get(node) {
-            wrench += link.pull;
-        }
-        if node > 0 {
-            wrench -= self.links[node - 1].pull;
-        }
-        wrench
     }
 
     /// Takes for the other right-hand side how what acts changes on the way to another problem (`step` long), whose supports `moved` meets
@@ -280,7 +253,8 @@ impl Nodal {
     /// vanishes.
     pub fn solve(&mut self, level: SimdLevel, drag: f64) -> Option<usize> {
         let drag = drag / self.links.len() as f64;
-        dispatch(level, Eliminate { nodal: self, drag })
+        let Inertia { negative, vanished } = dispatch(level, Eliminate { nodal: self, drag });
+        (vanished == 0.0).then_some(negative as usize)
     }
 
     /// Adds to what acts a load of size one that has no symmetry, forces and moments, growing along the rod.
@@ -313,7 +287,7 @@ impl Nodal {
             let x = self.steps[i + 1].to_array();
             let mut next = [0.0; 6];
             for (next, row) in next.iter_mut().zip(&self.follows[i]) {
-                *next = (0..6).map(|k| row.0[k] * x[k]).sum();
+                *next = (0..6).map(|k| row[k] * x[k]).sum();
             }
             self.steps[i] = Vec6::from(next);
         }
@@ -329,28 +303,101 @@ impl Nodal {
     }
 
     /// Takes a part of the step.
-    pub fn take(&self, problem: &Problem, part: f64, state: &mut Record) {
-        let axes = self.axes;
-        for (e, link) in self.links.iter().enumerate() {
-            let apart = self.steps[e + 1] - self.steps[e];
-            let change = Wrench::from(core::array::from_fn::<f64, 6, _>(|i| {
-                (0..6).map(|k| link.stiffness[i].0[k] * apart.to_array()[k]).sum()
-            }));
-            let change = axes.frame(&state.poses[e + 1]).inverse().carry_wrench((change + link.pull) * part);
-            state.wrenches[e] += Wrench::new(change.angular * axes.moment, change.linear * axes.force);
-        }
-        for (i, pose) in state.poses.iter_mut().enumerate() {
-            let step = self.steps[i] * part;
-            let turn = Quat::from_rotation_vector(step.angular).to_matrix();
-            let shift = step.linear + step.angular.cross(self.places[i]);
-            // As along a screw, so that a whole rod that turns does not grow.
-            let x = Vec6::new(step.angular, shift);
-            let ahead = Pose::exp(x).position * axes.length;
-            *pose = Pose { rotation: turn * pose.rotation, position: pose.position + ahead };
-        }
+    pub fn take(&self, problem: &Problem, level: SimdLevel, part: f64, state: &mut Record) {
+        dispatch(level, Take { nodal: self, part, state });
         for (node, end) in problem.supports() {
             state.poses[node] = meet(end, &state.poses[node]);
         }
+    }
+}
+
+/// Takes a part of the step, several elements side by side.
+struct Take<'a> {
+    nodal: &'a Nodal,
+    part: f64,
+    state: &'a mut Record,
+}
+
+impl Kernel for Take<'_> {
+    type Output = ();
+
+    #[inline(always)]
+    fn run(self) {
+        let Self { nodal, part, state } = self;
+        let axes = nodal.axes;
+        for (e, link) in nodal.links.iter().enumerate() {
+            let far = axes.frame(&state.poses[e + 1]);
+            let change = link.change(nodal.steps[e], nodal.steps[e + 1], part, &far);
+            state.wrenches[e] += Wrench::new(change.angular * axes.moment, change.linear * axes.force);
+        }
+        for (i, pose) in state.poses.iter_mut().enumerate() {
+            let moved = along_screw(nodal.steps[i], part, nodal.places[i]);
+            *pose = Pose {
+                rotation: moved.rotation * pose.rotation,
+                position: pose.position + moved.position * axes.length,
+            };
+        }
+    }
+}
+
+/// How a node at a place turns and shifts by a part of a step: along a screw, so that a whole rod that turns does not grow.
+#[inline(always)]
+fn along_screw<R: Real>(step: Vec6<Vec3<R>>, part: R, place: Vec3<R>) -> Pose<Vec3<R>> {
+    let step = step * part;
+    Pose::exp(Vec6::new(step.angular, step.linear + step.angular.cross(place)))
+}
+
+impl<R: Real> Link<R> {
+    /// How the wrench that it carries changes when its nodes take a part of their steps, in the frame of its far node.
+    #[inline(always)]
+    fn change(
+        &self,
+        near: Vec6<Vec3<R>>,
+        far: Vec6<Vec3<R>>,
+        part: R,
+        frame: &Pose<Vec3<R>>,
+    ) -> Wrench<Vec3<R>> {
+        let apart = parts(far - near);
+        let force = self.stiffness.map(|row| {
+            (row[0] * apart[0] + row[1] * apart[1])
+                + (row[2] * apart[2] + row[3] * apart[3])
+                + (row[4] * apart[4] + row[5] * apart[5])
+        });
+        frame.inverse().carry_wrench((pair(force) + self.pull) * part)
+    }
+}
+
+impl<R: Real> Nodal<R> {
+    /// The wrench that acts on a node, in the fixed axes; at a held node the opposite of the reaction.
+    fn imbalance(&self, node: usize) -> Wrench<Vec3<R>> {
+        let mut wrench = self.loads[node];
+        if let Some(link) = self.links.get(node) {
+            wrench += link.carried;
+        }
+        if node > 0 {
+            wrench -= self.links[node - 1].carried;
+        }
+        wrench
+    }
+
+    /// What acts on a node when the elements have taken up their slack: the right-hand side of the system.
+    pub fn acting(&self, node: usize) -> Wrench<Vec3<R>> {
+        let mut wrench = self.imbalance(node);
+        if let Some(link) = self.links.get(node) {
+            wrench += link.pull;
+        }
+        if node > 0 {
+            wrench -= self.links[node - 1].pull;
+        }
+        wrench
+    }
+}
+
+impl<R: Real> Hold<R> {
+    /// The work of a wrench on each free displacement.
+    fn along_free(&self, wrench: Wrench<Vec3<R>>) -> Wrench<Vec3<R>> {
+        let w = parts(wrench);
+        pair(core::array::from_fn(|c| (0..6).fold(R::zero(), |sum, r| sum + self.free[r][c] * w[r])))
     }
 }
 
@@ -360,6 +407,76 @@ fn dead_moment_slope(at: Vec3, force: Vec3) -> [Mat3; 2] {
     [force * Mat3::hat(at), force.scaled(-1.0)]
 }
 
+/// Elements of a rod of order 2 with a diagonal law, side by side, in the fixed axes.
+struct Elements {
+    compliance: Vec6<Side>,
+    rest: Vec6<Side>,
+    /// The wrenches that they carry through their far nodes.
+    wrench: Wrench<Side>,
+    /// The exponents between their frames.
+    x: Vec6<Side>,
+    /// The poses of their far nodes.
+    far: Pose<Side>,
+}
+
+impl Elements {
+    /// From the first on as many as there are lanes; past the last element it repeats that.
+    #[inline(always)]
+    fn gather(rod: &Rod, points: &[DiagonalPoint], axes: &Axes, state: &Record, first: usize) -> Self {
+        let [mut compliance, mut rest, mut wrench] = [Vec6::<Side>::zero(); 3];
+        let mut near = Pose { rotation: Mat3 { cols: [Side::zero(); 3] }, position: Side::zero() };
+        let mut far = near;
+        for i in 0..BATCH {
+            let e = (first + i).min(rod.elements() - 1);
+            let point = &points[e];
+            compliance.angular.put(i, point.compliance.angular * axes.moment);
+            compliance.linear.put(i, point.compliance.linear * (axes.force / axes.length));
+            rest.put(i, axes.shift(point.rest));
+            wrench.put(i, axes.wrench(state.wrenches[e]));
+            near.put(i, &axes.frame(&state.poses[e]));
+            far.put(i, &axes.frame(&state.poses[e + 1]));
+        }
+        let relative = near.between(&far);
+        let mut x = relative.log_of_small_turn();
+        for i in 0..BATCH {
+            if x.angular.x.0[i].is_nan() {
+                x.put(i, relative.lane(i).log());
+            }
+        }
+        Self { compliance, rest, wrench, x, far }
+    }
+}
+
+/// Gives elements of order 2 with a diagonal law the strains that belong to what they carry.
+pub(crate) fn take_strains(rod: &Rod, points: &[DiagonalPoint], level: SimdLevel, state: &mut Record) {
+    dispatch(level, TakeStrains { rod, points, state });
+}
+
+struct TakeStrains<'a> {
+    rod: &'a Rod,
+    points: &'a [DiagonalPoint],
+    state: &'a mut Record,
+}
+
+impl Kernel for TakeStrains<'_> {
+    type Output = ();
+
+    #[inline(always)]
+    fn run(self) {
+        let Self { rod, points, state } = self;
+        let axes = Axes { origin: state.poses[0].position, ..Axes::default() };
+        for first in (0..rod.elements()).step_by(BATCH) {
+            let Elements { compliance, rest, wrench, x, .. } =
+                Elements::gather(rod, points, &axes, state, first);
+            let exponent = rest + compliance.scale(element::mean_wrench(x, wrench));
+            for i in 0..BATCH.min(rod.elements() - first) {
+                let e = first + i;
+                state.strains[e] = [exponent.lane(i) * (1.0 / rod.element_length(e)); 2];
+            }
+        }
+    }
+}
+
 /// Linearises the elements of a rod of order 2 with a diagonal law, several side by side.
 struct Linearise<'a> {
     rod: &'a Rod,
@@ -367,7 +484,7 @@ struct Linearise<'a> {
     axes: &'a Axes,
     lent: f64,
     state: &'a mut Record,
-    links: &'a mut Vec<Link>,
+    links: &'a mut Vec<Link<f64>>,
 }
 
 impl Kernel for Linearise<'_> {
@@ -379,36 +496,18 @@ impl Kernel for Linearise<'_> {
         let n = rod.elements();
         let mut worst = 0.0;
         for first in (0..n).step_by(BATCH) {
-            let [mut compliance, mut rest, mut x, mut wrench] = [Vec6::<Side>::zero(); 4];
-            let mut share = Lanes::<BATCH>::zero();
-            let mut far = Pose { rotation: Mat3 { cols: [Side::zero(); 3] }, position: Side::zero() };
-            for i in 0..BATCH {
-                // Past the last element the batch repeats it.
-                let e = (first + i).min(n - 1);
-                let point = &points[e];
-                compliance.angular.put(i, point.compliance.angular * axes.moment);
-                compliance.linear.put(i, point.compliance.linear * (axes.force / axes.length));
-                rest.put(i, axes.shift(point.rest));
-                x.put(i, axes.shift(state.poses[e].between(&state.poses[e + 1]).log()));
-                wrench.put(i, axes.wrench(state.wrenches[e]));
-                let pose = axes.frame(&state.poses[e + 1]);
-                (0..3).for_each(|k| far.rotation.cols[k].put(i, pose.rotation.cols[k]));
-                far.position.put(i, pose.position);
-                share.0[i] = lent * rod.element_length(e) / rod.length();
-            }
+            let Elements { compliance, rest, wrench, x, far } =
+                Elements::gather(rod, points, axes, state, first);
+            let share = Lanes::from_fn(|i| lent * rod.element_length((first + i).min(n - 1)) / rod.length());
             let Resistance { stiffness, pull, slack } =
                 diagonal_resistance(compliance, rest, share, x, wrench, &far);
             let carried = far.carry_wrench(wrench);
             for i in 0..BATCH.min(n - first) {
-                let mut rows = [Row::zero(); 6];
-                for r in 0..6 {
-                    for c in 0..6 {
-                        let column = &stiffness[r / 3][c / 3].cols[c % 3];
-                        rows[r].0[c] = [&column.x, &column.y, &column.z][r % 3].0[i];
-                    }
-                }
+                let stiffness = core::array::from_fn(|r| {
+                    core::array::from_fn(|c| stiffness[r / 3][c / 3].cols[c % 3].lane(i)[r % 3])
+                });
                 worst = larger(worst, largest(&slack.lane(i).to_array()));
-                links.push(Link { stiffness: rows, carried: carried.lane(i), pull: pull.lane(i) });
+                links.push(Link { stiffness, carried: carried.lane(i), pull: pull.lane(i) });
             }
         }
         worst

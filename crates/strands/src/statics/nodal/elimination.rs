@@ -1,143 +1,151 @@
 //! The elimination of the nodal system: node by node from the start to the end, each a block of six, whose pivots give the inertia.
+//!
+//! Written for one rod or several side by side.
 
-use super::{Hold, Link, Nodal, Row};
-use crate::math::{Kernel, Mat3, Mat6, Real, Vec3, Vec6, Wrench};
+use super::{Hold, Link, Nodal};
+use crate::math::{Kernel, Mat3, Real, Vec3, Vec6, Vector};
 
 /// The resistance of a turning node, over that of a shifted one and the length squared.
 const TURNING: f64 = 0.02;
-/// A pivot below this part of the largest entry is none.
+/// A pivot below this part of its block's diagonal is none.
 const SMALLEST_PIVOT: f64 = 1e-15;
 
-/// Six rows of a block: six columns, and two for what acts.
-pub(super) type Block = [Row; 6];
-/// The column of what acts, and that of another right-hand side.
-const COLUMNS: [usize; 2] = [6, 7];
+/// Six rows of a block.
+pub(super) type Square<R> = [[R; 6]; 6];
+/// Six rows of a block, and two columns more: what acts, and another right-hand side.
+pub(super) type Block<R> = [[R; 8]; 6];
+const ACTING: usize = 6;
+const OTHER: usize = 7;
 
-/// Eliminates the nodes from the first to the last, and puts the step back together.
-pub(super) struct Eliminate<'a> {
-    pub nodal: &'a mut Nodal,
-    pub drag: f64,
+/// The signs of the pivots.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Inertia<R> {
+    /// How many are negative.
+    pub negative: R,
+    /// How many vanish: what follows from these is worth nothing.
+    pub vanished: R,
 }
 
-impl Kernel for Eliminate<'_> {
-    type Output = Option<usize>;
+/// Eliminates the nodes from the first to the last, and puts the step back together.
+pub(super) struct Eliminate<'a, R> {
+    pub nodal: &'a mut Nodal<R>,
+    pub drag: R,
+}
+
+impl<R: Real> Kernel for Eliminate<'_, R> {
+    type Output = Inertia<R>;
 
     #[inline(always)]
-    fn run(self) -> Option<usize> {
+    fn run(self) -> Inertia<R> {
         let Self { nodal, drag } = self;
         let n = nodal.links.len();
-        nodal.follows.resize(n + 1, [Row::zero(); 6]);
-        nodal.steps.clear();
-        nodal.steps.resize(n + 1, Vec6::ZERO);
-        let mut negative = 0;
-        // What the nodes before add to the pivot, and in column 6 to what acts.
-        let mut earlier = [Row::zero(); 6];
+        nodal.follows.resize(n + 1, [[R::zero(); 8]; 6]);
+        nodal.steps.resize(n + 1, Vec6::zero());
+        let mut inertia = Inertia { negative: R::zero(), vanished: R::zero() };
+        // What the nodes before add to the pivot, and to what acts.
+        let mut earlier = [[R::zero(); 8]; 6];
         let (mut holds, mut slopes) = (0, 0);
         for i in 0..=n {
-            let mut pivot = earlier;
+            let mut pivot: Square<R> = core::array::from_fn(|r| core::array::from_fn(|c| earlier[r][c]));
+            let mut right = [[R::zero(); 8]; 6];
             add_drag(&mut pivot, nodal.places[i], drag);
-            let acting = nodal.imbalance(i);
-            for (row, force) in pivot.iter_mut().zip(acting.to_array()) {
-                row.0[6] += force;
+            let acting = parts(nodal.acting(i));
+            for r in 0..6 {
+                right[r][ACTING] = earlier[r][ACTING] + acting[r];
+                right[r][OTHER] = earlier[r][OTHER];
             }
             if let Some(other) = nodal.others.get(i) {
-                for (row, force) in pivot.iter_mut().zip(other.to_array()) {
-                    row.0[7] += force;
-                }
+                let other = parts(*other);
+                (0..6).for_each(|r| right[r][OTHER] += other[r]);
             }
-            let mut upper = [Row::zero(); 6];
             if let Some(after) = nodal.links.get(i) {
-                upper = on_far(after);
                 add(&mut pivot, &after.stiffness);
-                add_column(&mut pivot, after.pull, 1.0);
+                let upper = on_far(after);
+                (0..6).for_each(|r| (0..6).for_each(|c| right[r][c] = upper[r][c]));
             }
             if i > 0 {
-                let before = &nodal.links[i - 1];
-                add(&mut pivot, &on_far(before));
-                add_column(&mut pivot, before.pull, -1.0);
+                add(&mut pivot, &on_far(&nodal.links[i - 1]));
             }
             while nodal.load_slopes.get(slopes).is_some_and(|(node, _)| *node == i) {
-                for (row, slope) in pivot.iter_mut().zip(nodal.load_slopes[slopes].1.to_rows()) {
-                    (0..6).for_each(|k| row.0[k] -= slope[k]);
-                }
+                let slope = &nodal.load_slopes[slopes].1;
+                (0..6).for_each(|r| (0..6).for_each(|c| pivot[r][c] -= slope[r][c]));
                 slopes += 1;
             }
             let hold = nodal.holds.get(holds).filter(|hold| hold.node == i);
             if let Some(hold) = hold {
                 holds += 1;
-                (pivot, upper) = restrict(hold, &pivot, &upper);
+                restrict(hold, &mut pivot, &mut right);
             }
-            for r in 0..6 {
-                COLUMNS.iter().for_each(|c| upper[r].0[*c] = pivot[r].0[*c]);
-            }
-            let follow = &mut nodal.follows[i];
-            *follow = upper;
-            negative += reduce(&mut pivot, follow)?;
+            reduce(&mut pivot, &mut right, &mut inertia);
             if let Some(hold) = hold {
-                *follow = expand(hold, follow);
+                expand(hold, &mut right);
             }
+            nodal.follows[i] = right;
             if let Some(after) = nodal.links.get(i) {
                 // −L D⁻¹ U to the next pivot, and L D⁻¹ b to what acts.
-                earlier = product(&after.stiffness, follow);
+                earlier = product(&after.stiffness, &right);
                 for row in &mut earlier {
-                    (0..6).for_each(|k| row.0[k] = -row.0[k]);
+                    (0..6).for_each(|c| row[c] = -row[c]);
                 }
             }
         }
-        put_together(&nodal.follows, COLUMNS[0], &mut nodal.steps);
+        put_together(&nodal.follows, ACTING, &mut nodal.steps);
         nodal.other_steps.clear();
         if !nodal.others.is_empty() {
-            nodal.other_steps.resize(n + 1, Vec6::ZERO);
-            put_together(&nodal.follows, COLUMNS[1], &mut nodal.other_steps);
+            nodal.other_steps.resize(n + 1, Vec6::zero());
+            put_together(&nodal.follows, OTHER, &mut nodal.other_steps);
         }
-        Some(negative)
+        inertia
     }
 }
 
 /// Each node's step from that of the one after it.
 #[inline(always)]
-fn put_together(follows: &[Block], column: usize, steps: &mut [Vec6]) {
-    let mut after = [0.0; 6];
+fn put_together<R: Real>(follows: &[Block<R>], column: usize, steps: &mut [Vec6<Vec3<R>>]) {
+    let mut x = [R::zero(); 6];
     for (follow, step) in follows.iter().zip(steps).rev() {
-        let x = after;
-        let mut next = [0.0; 6];
+        let mut next = [R::zero(); 6];
         for (next, row) in next.iter_mut().zip(follow) {
-            let row = &row.0;
             *next = row[column]
                 + ((row[0] * x[0] + row[1] * x[1]) + (row[2] * x[2] + row[3] * x[3]))
                 + (row[4] * x[4] + row[5] * x[5]);
         }
-        *step = Vec6::from(next);
-        after = next;
+        *step = pair(next);
+        x = next;
     }
 }
 
 #[inline(always)]
-fn add(to: &mut Block, block: &Block) {
-    for (row, other) in to.iter_mut().zip(block) {
-        *row += *other;
-    }
+pub(super) fn parts<R: Real>(v: Vec6<Vec3<R>>) -> [R; 6] {
+    [v.angular.x, v.angular.y, v.angular.z, v.linear.x, v.linear.y, v.linear.z]
 }
 
 #[inline(always)]
-fn add_column(to: &mut Block, column: Wrench, sign: f64) {
-    for (row, value) in to.iter_mut().zip(column.to_array()) {
-        row.0[6] += sign * value;
+pub(super) fn pair<R: Real>(a: [R; 6]) -> Vec6<Vec3<R>> {
+    Vec6::new(Vec3::new(a[0], a[1], a[2]), Vec3::new(a[3], a[4], a[5]))
+}
+
+#[inline(always)]
+fn add<R: Real>(to: &mut Square<R>, block: &Square<R>) {
+    for r in 0..6 {
+        for c in 0..6 {
+            to[r][c] += block[r][c];
+        }
     }
 }
 
 /// `F + A`: how what the element exerts on its far node changes with that node.
 #[inline(always)]
-fn on_far(link: &Link) -> Block {
+fn on_far<R: Real>(link: &Link<R>) -> Square<R> {
     let mut block = link.stiffness;
     let (m, n) = (link.carried.angular, link.carried.linear);
-    let mut minus_hat = |r: usize, c: usize, v: Vec3| {
-        block[r].0[c + 1] += v.z;
-        block[r].0[c + 2] -= v.y;
-        block[r + 1].0[c] -= v.z;
-        block[r + 1].0[c + 2] += v.x;
-        block[r + 2].0[c] += v.y;
-        block[r + 2].0[c + 1] -= v.x;
+    let mut minus_hat = |r: usize, c: usize, v: Vec3<R>| {
+        block[r][c + 1] += v.z;
+        block[r][c + 2] -= v.y;
+        block[r + 1][c] -= v.z;
+        block[r + 1][c + 2] += v.x;
+        block[r + 2][c] += v.y;
+        block[r + 2][c + 1] -= v.x;
     };
     minus_hat(0, 0, m);
     minus_hat(0, 3, n);
@@ -147,100 +155,103 @@ fn on_far(link: &Link) -> Block {
 
 /// The drag on a node that turns and shifts: `|η + θ × p|² + TURNING |θ|²`.
 #[inline(always)]
-fn add_drag(pivot: &mut Block, p: Vec3, drag: f64) {
+fn add_drag<R: Real>(pivot: &mut Square<R>, p: Vec3<R>, drag: R) {
     let arm = Mat3::hat(p);
-    let turning = Mat3::IDENTITY.scaled(TURNING) - arm * arm;
+    let turning = R::splat(TURNING);
+    let squared = arm * arm;
     for r in 0..3 {
         for c in 0..3 {
-            pivot[r].0[c] += drag * turning.cols[c][r];
-            pivot[r].0[3 + c] += drag * arm.cols[c][r];
-            pivot[3 + r].0[c] -= drag * arm.cols[c][r];
+            let arm = drag * component(arm.cols[c], r);
+            pivot[r][c] -= drag * component(squared.cols[c], r);
+            pivot[r][3 + c] += arm;
+            pivot[3 + r][c] -= arm;
         }
-        pivot[3 + r].0[3 + r] += drag;
+        pivot[r][r] += drag * turning;
+        pivot[3 + r][3 + r] += drag;
     }
 }
 
-/// Solves the six equations for seven right-hand sides, in place, without interchange: the signs of the pivots are wanted, and where all are
-/// positive it is not needed. `None` where a pivot vanishes.
 #[inline(always)]
-fn reduce(left: &mut Block, right: &mut Block) -> Option<usize> {
-    let mut size = 0.0_f64;
-    for row in left.iter() {
-        for x in &row.0[..6] {
-            size = size.max(x.abs());
-        }
-    }
-    let mut negative = 0;
+fn component<R: Real>(v: Vec3<R>, i: usize) -> R {
+    Vector::parts(v)[i]
+}
+
+/// Solves the six equations for eight right-hand sides, in place, without interchange: the signs of the pivots are wanted, and where all are
+/// positive it is not needed.
+#[inline(always)]
+fn reduce<R: Real>(left: &mut Square<R>, right: &mut Block<R>, inertia: &mut Inertia<R>) {
+    let size = (0..6).fold(R::zero(), |sum, k| sum + left[k][k].abs());
+    let smallest = size * R::splat(SMALLEST_PIVOT);
+    let (one, none) = (R::one(), R::zero());
+    let mut scales = [none; 6];
     for k in 0..6 {
-        let pivot = left[k].0[k];
-        if !(pivot.abs() > SMALLEST_PIVOT * size && pivot.is_finite()) {
-            return None;
-        }
-        negative += usize::from(pivot < 0.0);
-        let scale = 1.0 / pivot;
-        let (mut l, mut r) = (left[k].0, right[k].0);
-        for c in 0..8 {
-            l[c] *= scale;
-            r[c] *= scale;
-        }
-        (left[k].0, right[k].0) = (l, r);
-        for i in 0..6 {
-            if i == k {
-                continue;
+        let pivot = left[k][k];
+        inertia.negative += R::select(pivot.at_most(0.0), one, none);
+        // Not a number counts as vanished too.
+        inertia.vanished += R::select((smallest - pivot.abs()).at_most(0.0), none, one);
+        scales[k] = one / pivot;
+        for i in k + 1..6 {
+            let factor = left[i][k] * scales[k];
+            for c in k + 1..6 {
+                left[i][c] -= left[k][c] * factor;
             }
-            let factor = left[i].0[k];
             for c in 0..8 {
-                left[i].0[c] -= l[c] * factor;
-                right[i].0[c] -= r[c] * factor;
+                right[i][c] -= right[k][c] * factor;
             }
         }
     }
-    Some(negative)
+    for k in (0..6).rev() {
+        for c in 0..8 {
+            right[k][c] = right[k][c] * scales[k];
+        }
+        for i in 0..k {
+            for c in 0..8 {
+                right[i][c] -= right[k][c] * left[i][k];
+            }
+        }
+    }
 }
 
-/// The product of six columns of a block with a block.
+/// The product of a block with another and what stands beside it.
 #[inline(always)]
-fn product(a: &Block, b: &Block) -> Block {
-    let mut out = [Row::zero(); 6];
+fn product<R: Real>(a: &Square<R>, b: &Block<R>) -> Block<R> {
+    let mut out = [[R::zero(); 8]; 6];
     for (out, a) in out.iter_mut().zip(a) {
         for c in 0..8 {
-            let term = |k: usize| b[k].0[c] * a.0[k];
-            out.0[c] = (term(0) + term(1)) + (term(2) + term(3)) + (term(4) + term(5));
+            let term = |k: usize| b[k][c] * a[k];
+            out[c] = (term(0) + term(1)) + (term(2) + term(3)) + (term(4) + term(5));
         }
     }
     out
 }
 
-fn matrix(block: &Block) -> Mat6 {
-    Mat6::from_rows(&core::array::from_fn(|r| core::array::from_fn(|c| block[r].0[c])))
+fn transposed<R: Real>(a: &Square<R>) -> Square<R> {
+    core::array::from_fn(|r| core::array::from_fn(|c| a[c][r]))
 }
 
-fn columns(block: &Block) -> [Vec6; 2] {
-    COLUMNS.map(|c| Vec6::from(core::array::from_fn::<f64, 6, _>(|r| block[r].0[c])))
-}
-
-fn block(matrix: &Mat6, columns: [Vec6; 2]) -> Block {
-    let (rows, columns) = (matrix.to_rows(), columns.map(|column| column.to_array()));
-    core::array::from_fn(|r| {
-        let mut row = Row::zero();
-        row.0[..6].copy_from_slice(&rows[r]);
-        COLUMNS.iter().zip(columns).for_each(|(c, column)| row.0[*c] = column[r]);
-        row
-    })
-}
-
-/// A held node's equations in its free displacements; those that are fixed are zero.
+/// Turns a held node's equations into such for its free displacements; those that are fixed are zero.
 #[inline(never)]
-fn restrict(hold: &Hold, pivot: &Block, upper: &Block) -> (Block, Block) {
-    let t = hold.free.transpose();
-    let fixed = Mat6::diagonal(Vec6::from(hold.fixed.map(f64::from)));
-    let restricted = t.mul(&matrix(pivot)).mul(&hold.free).add(&hold.curved).add(&fixed);
-    let acting = columns(pivot).map(|column| t.mul_vec(column));
-    (block(&restricted, acting), block(&t.mul(&matrix(upper)), [Vec6::ZERO; 2]))
+fn restrict<R: Real>(hold: &Hold<R>, pivot: &mut Square<R>, right: &mut Block<R>) {
+    let t = transposed(&hold.free);
+    *right = product(&t, right);
+    let mut by_columns = [[R::zero(); 8]; 6];
+    let turned = transposed(pivot);
+    (0..6).for_each(|r| by_columns[r][..6].copy_from_slice(&turned[r]));
+    // (Pᵀ F)ᵀ F = Fᵀ P F.
+    let once = product(&t, &by_columns);
+    let mut held = [[R::zero(); 8]; 6];
+    (0..6).for_each(|r| (0..6).for_each(|c| held[r][c] = once[c][r]));
+    let twice = product(&t, &held);
+    for r in 0..6 {
+        for c in 0..6 {
+            pivot[r][c] = twice[r][c] + hold.curved[r][c];
+        }
+        pivot[r][r] += hold.fixed[r];
+    }
 }
 
 /// From the free displacements of a held node to the variation of its frame.
 #[inline(never)]
-fn expand(hold: &Hold, follow: &Block) -> Block {
-    block(&hold.free.mul(&matrix(follow)), columns(follow).map(|column| hold.free.mul_vec(column)))
+fn expand<R: Real>(hold: &Hold<R>, follow: &mut Block<R>) {
+    *follow = product(&hold.free, follow);
 }
