@@ -219,7 +219,7 @@ fn twisted_ring() -> CriticalCase {
         title: "The turns of twist at which a straight rod closed to a ring leaves the plane".into(),
         source: "Michell 1889; Zajac, J. Appl. Mech. 29:136–142, 1962; Goriely, J. Elasticity 84:281, 2006",
         tolerance: 1e-4,
-        elements: 200,
+        elements: 100,
         branches: branches.collect(),
         remark: None,
     }

@@ -83,6 +83,8 @@ const CLOSE_ENOUGH: f64 = 1e-3;
 /// infinite somewhere, and a polynomial through loads near to that misleads.
 const BESIDE: [f64; 4] = [-2.0, -1.0, 1.0, 2.0];
 const NEARER: [f64; 3] = [3e-3, 1e-3, 3e-4];
+/// The relative change from one such polynomial to the next below which no nearer one is taken.
+const AGREED: f64 = 1e-9;
 /// The disturbing force, over `EI/L²`: large beside round-off, and so small that the rod answers in proportion.
 const DISTURBANCE: f64 = 1e-9;
 
@@ -211,7 +213,11 @@ impl<'a> Follower<'a> {
                     loads[i] = (b * loads[i] - a * loads[i + 1]) / (b - a);
                 }
             }
+            let change = (loads[0] / near - 1.0).abs();
             near = loads[0];
+            if change < AGREED {
+                break;
+            }
         }
         Ok(near)
     }
