@@ -358,6 +358,7 @@ struct LocalFactors {
     factors: Factors,
 }
 
+#[expect(clippy::large_enum_variant, reason = "lives on the stack for the time of an element")]
 enum Factors {
     Six(Lu<6>),
     Twelve(Lu<12>),
