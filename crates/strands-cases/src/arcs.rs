@@ -8,7 +8,7 @@ use crate::planar::{kept_in_plane, moment, straight, turned};
 use crate::table::Table;
 use crate::{Answer, Case, Expected, Quantity, Row, Setup, Start};
 use core::f64::consts::{FRAC_PI_2, PI};
-use strands::load::{Frame, PointLoad};
+use strands::load::{Frame, PointLoad, PointPull};
 use strands::math::{Pose, Vec3, Wrench};
 use strands::rod::{RestShape, RodDescription};
 use strands::statics::Support;
@@ -208,7 +208,7 @@ fn pressed_ring() -> CriticalCase {
     let branches = table.records().flat_map(|record| {
         let n = record.number("n");
         let angle = PI / n;
-        let pressed = |kind, dead: bool| {
+        let pressed = |kind, press: fn(&mut Setup, f64, f64)| {
             // Nothing can be said of more than the first mode of a wedge, which is the ring's n-th.
             branch(
                 format!("{kind}, n = {n}"),
@@ -219,20 +219,25 @@ fn pressed_ring() -> CriticalCase {
                     for i in 0..=STRETCHES {
                         let at = angle * i as f64 / STRETCHES as f64;
                         let share = if i == 0 || i == STRETCHES { 0.5 } else { 1.0 };
-                        let size = share * pressure * angle / STRETCHES as f64;
-                        // The normal to the inside is d1.
-                        let (force, frame) = if dead {
-                            (radial(at) * -size, Frame::World)
-                        } else {
-                            (Vec3::X * size, Frame::Body)
-                        };
-                        setup.loads.push(PointLoad { at, wrench: Wrench::new(Vec3::ZERO, force), frame });
+                        press(&mut setup, at, share * pressure * angle / STRETCHES as f64);
                     }
                     setup
                 },
             )
         };
-        [pressed("hydrostatic", false), pressed("dead", true)]
+        let across = |setup: &mut Setup, at, size| {
+            // The normal to the inside is d1.
+            let wrench = Wrench::new(Vec3::ZERO, Vec3::X * size);
+            setup.loads.push(PointLoad { at, wrench, frame: Frame::Body });
+        };
+        let dead = |setup: &mut Setup, at, size: f64| {
+            let wrench = Wrench::new(Vec3::ZERO, radial(at) * -size);
+            setup.loads.push(PointLoad { at, wrench, frame: Frame::World });
+        };
+        let central = |setup: &mut Setup, at, tension| {
+            setup.pulls.push(PointPull { at, towards: Vec3::ZERO, tension });
+        };
+        [pressed("hydrostatic", across), pressed("dead", dead), pressed("central", central)]
     });
     CriticalCase {
         name: "pressed-ring".into(),
@@ -241,8 +246,6 @@ fn pressed_ring() -> CriticalCase {
         tolerance: 1e-3,
         elements: 120,
         branches: branches.collect(),
-        remark: Some(
-            "Pressure that stays across the ring has no potential here, so no index is known. One that points to the centre is no load of a rod.",
-        ),
+        remark: Some("Pressure that stays across the ring has no potential here, so no index is known."),
     }
 }

@@ -95,6 +95,17 @@ impl Case {
         order: Order,
         settings: &Settings,
     ) -> Vec<Result<Outcome, CaseError>> {
+        self.solve_or_looser(elements, order, settings, &[])
+    }
+
+    /// Solves every row, in order; one that round-off keeps from its tolerance to the first of looser ones that it reaches.
+    pub fn solve_or_looser(
+        &self,
+        elements: usize,
+        order: Order,
+        settings: &Settings,
+        looser: &[f64],
+    ) -> Vec<Result<Outcome, CaseError>> {
         let mut workspace = Workspace::default();
         let mut previous: Option<Guess> = None;
         let mut outcomes = Vec::with_capacity(self.rows.len());
@@ -104,7 +115,12 @@ impl Case {
                 Start::Near { pose, wrench } => Some(Guess::new(pose, wrench)),
                 Start::PreviousRow => previous,
             };
-            let outcome = row.solve(elements, order, settings, guess.as_ref(), &mut workspace);
+            let mut outcome = row.solve(elements, order, settings, guess.as_ref(), &mut workspace);
+            for tolerance in looser {
+                let Err(CaseError::Solve(_)) = &outcome else { break };
+                let settings = Settings { tolerance: *tolerance, ..*settings };
+                outcome = row.solve(elements, order, &settings, guess.as_ref(), &mut workspace);
+            }
             previous = outcome.as_ref().ok().map(|outcome| outcome.solution.guess);
             outcomes.push(outcome);
         }

@@ -70,7 +70,7 @@ fn euler() -> CriticalCase {
     let branches = table.records().map(|record| {
         let ends = record.text("ends");
         let description = kept_in_plane(straight(LENGTH, 0.05, None));
-        let disturbed = (0.4 * LENGTH, Vec3::Y);
+        let disturbed = (0.2 * LENGTH, Vec3::Y);
         branch(ends.replace('_', " "), known(&record, &THREE), disturbed, move |thrust| {
             pressed(&description, ends, thrust)
         })
@@ -80,7 +80,7 @@ fn euler() -> CriticalCase {
         title: "The first three buckling loads of a column, its ends held in five ways".into(),
         source: "Euler 1744; Timoshenko & Gere, Theory of Elastic Stability, 1961, ch. 2",
         tolerance: 1e-8,
-        elements: 400,
+        elements: 640,
         branches: branches.collect(),
         remark: None,
     }
@@ -104,7 +104,7 @@ fn shearing() -> CriticalCase {
         title: "The buckling load of a column that stretches and shears".into(),
         source: "Haringx 1942; Reissner, ZAMP 23:795–804, 1972; Magnusson et al., Int. J. Solids Struct. 38:8441, 2001",
         tolerance: 1e-8,
-        elements: 200,
+        elements: 320,
         branches: branches.collect(),
         remark: None,
     }
@@ -128,7 +128,7 @@ fn greenhill() -> CriticalCase {
         title: "The weight under which an upright column buckles".into(),
         source: "Greenhill, Proc. Camb. Phil. Soc. 4:65–73, 1881: zeros of a Bessel function",
         tolerance: 1e-8,
-        elements: 400,
+        elements: 500,
         branches: branches.collect(),
         remark: None,
     }
@@ -180,7 +180,7 @@ fn torque_and_thrust() -> CriticalCase {
         title: "The torque at which a straight rod under thrust or pull coils up".into(),
         source: "Greenhill, Proc. IMechE 1883; Love 1927, art. 272; van der Heijden et al., Int. J. Mech. Sci. 45:161–196, 2003",
         tolerance: 1e-6,
-        elements: 200,
+        elements: 320,
         branches: branches.collect(),
         remark: Some(
             "On the axis the ends may turn, and a dead torque on what may turn has no potential: no index is known there.",
@@ -219,7 +219,7 @@ fn twisted_ring() -> CriticalCase {
         title: "The turns of twist at which a straight rod closed to a ring leaves the plane".into(),
         source: "Michell 1889; Zajac, J. Appl. Mech. 29:136–142, 1962; Goriely, J. Elasticity 84:281, 2006",
         tolerance: 1e-4,
-        elements: 200,
+        elements: 100,
         branches: branches.collect(),
         remark: None,
     }

@@ -78,11 +78,10 @@ impl fmt::Debug for Branch {
 const STEPS: f64 = 48.0;
 /// How close the index brings a critical load, relative to it: where it is all there is, and where the stiffness takes over.
 const CLOSE: f64 = 1e-6;
-const CLOSE_ENOUGH: f64 = 1e-3;
-/// The loads beside the critical one at which the stiffness is taken, in these parts of it, ever nearer: between two modes the stiffness is
-/// infinite somewhere, and a polynomial through loads near to that misleads.
-const BESIDE: [f64; 4] = [-2.0, -1.0, 1.0, 2.0];
-const NEARER: [f64; 3] = [3e-3, 1e-3, 3e-4];
+const CLOSE_ENOUGH: f64 = 2.5e-4;
+/// The loads beside the critical one at which the stiffness is taken, in these parts of it: so near that a polynomial through them bears with where
+/// the stiffness is infinite, between two modes, and so far that the rod answers in proportion.
+const BESIDE: [f64; 6] = [-3e-3, -2e-3, -1e-3, 1e-3, 2e-3, 3e-3];
 /// The disturbing force, over `EI/L²`: large beside round-off, and so small that the rod answers in proportion.
 const DISTURBANCE: f64 = 1e-9;
 
@@ -106,8 +105,7 @@ impl Branch {
             while unstable > lost {
                 let (load, now) = follower.first_with_more(lost, below, above)?;
                 let index = follower.counts.then_some([lost, now]);
-                let load =
-                    if self.disturbed.is_some() { follower.where_stiffness_vanishes(load)? } else { load };
+                let load = if self.disturbed.is_some() { follower.vanishing_stiffness(load)? } else { load };
                 found.push(CriticalLoad { load, index });
                 lost = now;
             }
@@ -147,7 +145,7 @@ impl<'a> Follower<'a> {
             setup = setup.with_force(place, force);
         }
         setup.apply(&mut self.problem)?;
-        let settings = Settings { tolerance: 1e-11, max_iterations: 60, ..Settings::default() };
+        let settings = Settings { tolerance: 1e-12, max_iterations: 60, ..Settings::default() };
         let guess = self.branch.end.as_ref().map(|end| end(load)).or(self.guess);
         let solution = nearest(&self.problem, &settings, guess.as_ref(), &mut self.workspace)?;
         self.guess = Some(solution.guess);
@@ -197,22 +195,26 @@ impl<'a> Follower<'a> {
         Ok(force / (disturbed - still).dot(along))
     }
 
-    /// The load near another at which the stiffness vanishes: the load as a polynomial of the stiffness, at zero (Neville's scheme).
-    fn where_stiffness_vanishes(&mut self, mut near: f64) -> Result<f64, CaseError> {
-        for part in NEARER {
-            let mut loads = BESIDE.map(|beside| near * (1.0 + part * beside));
-            let mut stiffnesses = [0.0; BESIDE.len()];
-            for (stiffness, load) in stiffnesses.iter_mut().zip(loads) {
-                *stiffness = self.stiffness(load)?;
-            }
-            for width in 1..loads.len() {
-                for i in 0..loads.len() - width {
-                    let (a, b) = (stiffnesses[i], stiffnesses[i + width]);
-                    loads[i] = (b * loads[i] - a * loads[i + 1]) / (b - a);
-                }
-            }
-            near = loads[0];
+    /// The load near another at which the stiffness vanishes.
+    fn vanishing_stiffness(&mut self, near: f64) -> Result<f64, CaseError> {
+        let load = self.interpolated(near)?;
+        // What the index, in favour of stability, says too late is not in the middle of the loads that were looked at.
+        if (load / near - 1.0).abs() > CLOSE_ENOUGH { self.interpolated(load) } else { Ok(load) }
+    }
+
+    /// The load as a polynomial of the stiffness through those beside one, at zero (Neville's scheme).
+    fn interpolated(&mut self, near: f64) -> Result<f64, CaseError> {
+        let mut loads = BESIDE.map(|part| near * (1.0 + part));
+        let mut stiffnesses = [0.0; BESIDE.len()];
+        for (stiffness, load) in stiffnesses.iter_mut().zip(loads) {
+            *stiffness = self.stiffness(load)?;
         }
-        Ok(near)
+        for width in 1..loads.len() {
+            for i in 0..loads.len() - width {
+                let (a, b) = (stiffnesses[i], stiffnesses[i + width]);
+                loads[i] = (b * loads[i] - a * loads[i + 1]) / (b - a);
+            }
+        }
+        Ok(loads[0])
     }
 }

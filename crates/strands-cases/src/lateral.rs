@@ -46,7 +46,7 @@ fn cantilever() -> CriticalCase {
         title: "The load under which a cantilever tips over to the side".into(),
         source: "Prandtl 1899; Michell 1899; Hodges & Peters, Int. J. Solids Struct. 11:1269, 1975; thin limits by zeros of Bessel functions",
         tolerance: 1e-6,
-        elements: 200,
+        elements: 100,
         branches: branches.collect(),
         remark: Some("Beams nearly as stiff to the side as in their plane do not tip over."),
     }

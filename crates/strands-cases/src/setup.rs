@@ -1,6 +1,6 @@
 //! A rod with what acts on it and what holds it, before it is cut into elements.
 
-use strands::load::{DistributedLoad, Frame, NodalLoads, PointLoad};
+use strands::load::{DistributedLoad, Frame, NodalLoads, PointLoad, PointPull};
 use strands::math::{Pose, Vec3, Wrench};
 use strands::rod::{Mesh, Order, Rod, RodDescription, RodError};
 use strands::statics::{Problem, Support};
@@ -14,6 +14,8 @@ pub struct Setup {
     pub force_per_length: Vec3,
     /// Forces and moments at places along it, the tip too.
     pub loads: Vec<PointLoad>,
+    /// Pulls towards points.
+    pub pulls: Vec<PointPull>,
     /// Where along it it is held, m, and how. An end of which nothing is said is free.
     pub supports: Vec<(f64, Support)>,
     /// Pieces of its mesh, by where each ends, m, and the part of all elements that it gets; none where all elements are alike. For rods that
@@ -43,6 +45,7 @@ impl Setup {
             description,
             force_per_length: Vec3::ZERO,
             loads: Vec::new(),
+            pulls: Vec::new(),
             supports: vec![(0.0, Support::clamped(base))],
             pieces: Vec::new(),
         }
@@ -98,7 +101,7 @@ impl Setup {
     /// # Errors
     /// Where there are fewer elements than stretches between the places.
     pub fn problem(&self, elements: usize, order: Order, places: &[f64]) -> Result<Problem, RodError> {
-        let loaded = self.loads.iter().map(|load| load.at);
+        let loaded = self.loads.iter().map(|load| load.at).chain(self.pulls.iter().map(|pull| pull.at));
         let held = self.supports.iter().map(|(place, _)| *place);
         let places: Vec<f64> = places.iter().copied().chain(loaded).chain(held).collect();
         let rod = if self.pieces.is_empty() {
@@ -128,6 +131,9 @@ impl Setup {
         let mut loads = NodalLoads::none(rod).with_distributed(rod, &weight)?;
         for load in &self.loads {
             loads = loads.with_point(rod, load)?;
+        }
+        for pull in &self.pulls {
+            loads = loads.with_pull(rod, pull)?;
         }
         let free = Support::free(rod.description().base);
         let (mut start, mut end, mut between) = (free.clone(), free, Vec::new());

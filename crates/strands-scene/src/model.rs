@@ -1,7 +1,7 @@
 //! A scene as understood: rods, loads and supports in SI units, validated, ready to solve.
 
 use strands::coupling::VirtualCoupling;
-use strands::load::{DistributedLoad, NodalLoads, PointLoad};
+use strands::load::{DistributedLoad, DistributedPull, NodalLoads, PointLoad, PointPull};
 use strands::math::{Mat3, Pose, Vec3};
 use strands::rod::{Order, Rod, RodError};
 use strands::statics::{Problem, RefineError, Refined, Settings, Support, refine};
@@ -79,6 +79,8 @@ pub(crate) struct Loads {
     pub gravity: Vec3,
     pub points: Vec<PointLoad>,
     pub stretches: Vec<DistributedLoad>,
+    pub pulls: Vec<PointPull>,
+    pub pulled_stretches: Vec<DistributedPull>,
 }
 
 impl Model {
@@ -162,8 +164,10 @@ impl Held {
 impl Loads {
     /// Where the mesh must have nodes for these loads, m.
     fn breaks(&self) -> Vec<f64> {
-        let stretches = self.stretches.iter().flat_map(|load| [load.from, load.to]);
-        self.points.iter().map(|load| load.at).chain(stretches).collect()
+        let stretches = self.stretches.iter().map(|load| [load.from, load.to]);
+        let pulled = self.pulled_stretches.iter().map(|pull| [pull.from, pull.to]);
+        let points = self.points.iter().map(|load| load.at);
+        points.chain(self.pulls.iter().map(|pull| pull.at)).chain(stretches.chain(pulled).flatten()).collect()
     }
 
     /// The problem of a rod under these loads and so held. The mesh has a node wherever it is held.
@@ -174,6 +178,12 @@ impl Loads {
         }
         for load in &self.stretches {
             loads = loads.with_distributed(&rod, load)?;
+        }
+        for pull in &self.pulls {
+            loads = loads.with_pull(&rod, pull)?;
+        }
+        for pull in &self.pulled_stretches {
+            loads = loads.with_distributed_pull(&rod, pull)?;
         }
         let rest = rod.rest_poses();
         let last = rod.elements();

@@ -144,6 +144,9 @@ pub(crate) fn example(key: &str) -> Option<&'static str> {
         }
         "supports" => "write each as `[[rods.thread.supports]]`, with `at` and `fix`",
         "loads" => "write each as `[[rods.thread.loads]]`, with `at` and `force`",
+        "towards" => {
+            "give the point in metres, as `towards = [0.0, 0.0, 0.0]`, and how hard it pulls in N, as `tension = 0.1`"
+        }
         "pitch" => "give the rise in one turn in metres, as `pitch = 6e-3`",
         "bending" => "give it about d1 and d2 in N·m², as `bending = [1e-3, 1e-3]`",
         "torsion" => "give it in N·m², as `torsion = 8e-4`",

@@ -116,8 +116,9 @@ fn load() -> impl Strategy<Value = LoadFile> {
     let place = || prop::option::of(place());
     let vector = || prop::option::of(vector());
     let frame = prop::option::of(prop::sample::select(vec![FrameName::World, FrameName::Body]));
-    (place(), place(), place(), [vector(), vector(), vector(), vector()], frame).prop_map(
-        |(at, from, to, [force, moment, force_per_length, moment_per_length], frame)| LoadFile {
+    let pull = (vector(), prop::option::of(number()), prop::option::of(number()));
+    (place(), place(), place(), [vector(), vector(), vector(), vector()], pull, frame).prop_map(
+        |(at, from, to, [force, moment, force_per_length, moment_per_length], pull, frame)| LoadFile {
             at,
             from,
             to,
@@ -125,6 +126,9 @@ fn load() -> impl Strategy<Value = LoadFile> {
             moment,
             force_per_length,
             moment_per_length,
+            towards: pull.0,
+            tension: pull.1,
+            tension_per_length: pull.2,
             frame,
         },
     )

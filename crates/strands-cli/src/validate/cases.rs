@@ -9,8 +9,9 @@ use super::Entry;
 use super::line::Line;
 use crate::units::digits;
 
-/// The residuals to which a row is solved: the first that can be reached. A long spring multiplies round-off, and stops at more than others.
-const TOLERANCES: [f64; 3] = [1e-12, 1e-10, 1e-8];
+/// The residual to which a row is solved, and those for what cannot be: a long spring multiplies round-off, and stops at more than others.
+const TOLERANCE: f64 = 1e-12;
+const LOOSER: [f64; 2] = [1e-10, 1e-8];
 
 /// An entry for each case.
 pub fn entries() -> Vec<Entry> {
@@ -19,33 +20,15 @@ pub fn entries() -> Vec<Entry> {
 }
 
 fn lines(case: &Case) -> Vec<Line> {
-    let rows = case.rows.iter().zip(outcomes(case));
+    // A row that starts near its answer must be found from there: nothing found from rest instead.
+    let settings = Settings { tolerance: TOLERANCE, restart_from_rest: false, ..Settings::default() };
+    let outcomes = case.solve_or_looser(case.elements, Order::Fourth, &settings, &LOOSER);
+    let rows = case.rows.iter().zip(outcomes);
     rows.flat_map(|(row, outcome)| match outcome {
         Ok(outcome) => compared(case, row, &outcome),
         Err(error) => vec![unsolved(case, row, &error)],
     })
     .collect()
-}
-
-/// Every row, solved with elements of order 4 as many as the case says suffice.
-fn outcomes(case: &Case) -> Vec<Result<Outcome, CaseError>> {
-    let solve = |tolerance| {
-        // A row that starts near its answer must be found from there: nothing found from rest instead.
-        let settings = Settings { tolerance, restart_from_rest: false, ..Settings::default() };
-        case.solve(case.elements, Order::Fourth, &settings)
-    };
-    let mut best = solve(TOLERANCES[0]);
-    for tolerance in &TOLERANCES[1..] {
-        if best.iter().all(Result::is_ok) {
-            break;
-        }
-        for (best, again) in best.iter_mut().zip(solve(*tolerance)) {
-            if best.is_err() {
-                *best = again;
-            }
-        }
-    }
-    best
 }
 
 fn compared(case: &Case, row: &Row, outcome: &Outcome) -> Vec<Line> {

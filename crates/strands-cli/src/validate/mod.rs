@@ -2,12 +2,17 @@
 
 mod cases;
 mod convergence;
+mod critical;
 mod line;
 mod plot;
 mod report;
 mod table;
 
+use std::io::{IsTerminal, Write, stderr};
+use std::panic::resume_unwind;
 use std::path::Path;
+use std::sync::{Mutex, PoisonError};
+use std::thread::available_parallelism;
 use std::time::Instant;
 
 use crate::args::Validate;
@@ -17,12 +22,12 @@ use line::Line;
 /// Something that can be validated: a name, and what finds its lines.
 struct Entry {
     name: String,
-    lines: Box<dyn FnOnce() -> Vec<Line>>,
+    lines: Box<dyn FnOnce() -> Vec<Line> + Send>,
 }
 
 /// All that can be validated, in the order in which it is printed. Problems of another kind are one more list of entries here.
 fn catalogue() -> Vec<Entry> {
-    cases::entries()
+    cases::entries().into_iter().chain(critical::entries()).collect()
 }
 
 /// What a run found.
@@ -48,7 +53,7 @@ pub fn run(options: &Validate) -> Result<(), Failure> {
     let start = Instant::now();
     let chosen = chosen(catalogue(), &options.names)?;
     let cases = chosen.len();
-    let lines = chosen.into_iter().flat_map(|entry| (entry.lines)()).collect();
+    let lines = lines_of(chosen);
     let findings = Findings { cases, lines, seconds: start.elapsed().as_secs_f64() };
     if let Some(path) = &options.output {
         write(path, &findings)?;
@@ -59,6 +64,39 @@ pub fn run(options: &Validate) -> Result<(), Failure> {
         say(&table::table(&findings, options.rows, colour_out()))?;
     }
     if findings.failed() > 0 { Err(Failure::Unsolved) } else { Ok(()) }
+}
+
+/// The lines of all entries in their order, found by as many threads as there are cores. On a terminal it says meanwhile how far it is.
+fn lines_of(entries: Vec<Entry>) -> Vec<Line> {
+    let (count, told) = (entries.len(), stderr().is_terminal());
+    // The progress is not worth a failure where it cannot be written.
+    let tell = |text: &str| {
+        if told {
+            let _ = write!(stderr(), "\r\x1b[K{text}").and_then(|()| stderr().flush());
+        }
+    };
+    let waiting = Mutex::new(entries.into_iter().enumerate());
+    let take = || waiting.lock().unwrap_or_else(PoisonError::into_inner).next();
+    let work = || {
+        let mut found = Vec::new();
+        while let Some((place, entry)) = take() {
+            tell(&format!("{} of {count}: {}", place + 1, entry.name));
+            found.push((place, (entry.lines)()));
+        }
+        found
+    };
+    let threads = available_parallelism().map_or(1, |cores| cores.get().min(count));
+    let mut found = std::thread::scope(|scope| {
+        let workers: Vec<_> = (0..threads).map(|_| scope.spawn(work)).collect();
+        let joined = workers.into_iter().flat_map(|worker| match worker.join() {
+            Ok(found) => found,
+            Err(panic) => resume_unwind(panic),
+        });
+        joined.collect::<Vec<_>>()
+    });
+    tell("");
+    found.sort_by_key(|(place, _)| *place);
+    found.into_iter().flat_map(|(_, lines)| lines).collect()
 }
 
 /// The entries that the names mean: the one of that name, or else all whose names contain it. Without names, all.

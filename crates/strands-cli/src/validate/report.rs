@@ -38,7 +38,7 @@ fn head(findings: &Findings) -> String {
     };
     format!(
         "<h1>Validation of Strands {}</h1>\n\
-         <p>Static equilibria of thin elastic rods, found by the solver with elements of order 4 and set beside reference answers: closed \
+         <p>Static equilibria of thin elastic rods and the loads at which they lose their stability, found by the solver with elements of order 4 and set beside reference answers: closed \
          forms, published figures, and independent computations.</p>\n\
          <p class=\"verdict {style}\">{says}</p>\n<p class=\"soft\">{}; on {} with {} instructions.</p>\n",
         env!("CARGO_PKG_VERSION"),

@@ -7,9 +7,16 @@ use anstyle::{AnsiColor, Style};
 use super::Findings;
 use super::line::{Line, shortened};
 
-/// The longest that a value gets, and words.
+/// The longest that a value gets, and words, where every comparison is printed.
 const VALUE: usize = 36;
 const WORDS: usize = 27;
+/// The longest of case and quantity where a case is one line, which so fits in 100 columns.
+const CASE: usize = 24;
+const BRIEFLY: usize = 22;
+
+/// The columns where every comparison is printed, and where a case is one line.
+const WHOLE: [&str; 9] = ["case", "source", "quantity", "row", "expected", "got", "error", "tolerance", ""];
+const BRIEF: [&str; 6] = ["case", "source", "quantity", "error", "tolerance", ""];
 
 /// The table: the worst comparison of each case, or every comparison; then how many there are.
 pub fn table(findings: &Findings, every: bool, colour: bool) -> String {
@@ -18,13 +25,16 @@ pub fn table(findings: &Findings, every: bool, colour: bool) -> String {
     } else {
         findings.by_case().filter_map(Line::worst).collect()
     };
-    let head = ["case", "source", "quantity", "row", "expected", "got", "error", "tolerance", ""];
-    let rows: Vec<[String; 9]> = shown.iter().map(|line| cells(line)).collect();
+    let (head, rows): (Vec<&str>, Vec<Vec<String>>) = if every {
+        (WHOLE.to_vec(), shown.iter().map(|line| cells(line)).collect())
+    } else {
+        (BRIEF.to_vec(), shown.iter().map(|line| brief(line)).collect())
+    };
     let wide: Vec<usize> = (0..head.len())
         .map(|i| rows.iter().map(|row| width(&row[i])).fold(width(head[i]), usize::max))
         .collect();
     let mut out = String::new();
-    let mut put = |cells: &[String; 9], style: Style| {
+    let mut put = |cells: &[String], style: Style| {
         let padded =
             cells.iter().zip(&wide).map(|(cell, wide)| format!("{cell}{:1$}", "", wide - width(cell)));
         let text = padded.collect::<Vec<_>>().join("  ");
@@ -33,7 +43,8 @@ pub fn table(findings: &Findings, every: bool, colour: bool) -> String {
             false => writeln!(out, "{}", text.trim_end()),
         };
     };
-    put(&head.map(str::to_owned), Style::new().bold());
+    let head: Vec<String> = head.into_iter().map(str::to_owned).collect();
+    put(&head, Style::new().bold());
     for (line, row) in shown.iter().zip(&rows) {
         put(row, if line.ok() { Style::new() } else { AnsiColor::Red.on_default() });
     }
@@ -43,14 +54,26 @@ pub fn table(findings: &Findings, every: bool, colour: bool) -> String {
     out + &if colour { format!("{style}{summary}{style:#}") } else { summary }
 }
 
-fn cells(line: &Line) -> [String; 9] {
-    [
+fn cells(line: &Line) -> Vec<String> {
+    vec![
         line.case.clone(),
         line.short_source(),
         shortened(&line.quantity, WORDS),
         shortened(&line.label, WORDS),
         shortened(&line.expected, VALUE),
         shortened(&line.got, VALUE),
+        magnitude(line.error),
+        magnitude(line.tolerance),
+        verdict(line).to_owned(),
+    ]
+}
+
+/// A case by its worst comparison.
+fn brief(line: &Line) -> Vec<String> {
+    vec![
+        shortened(&line.case, CASE),
+        line.short_source(),
+        shortened(&line.quantity, BRIEFLY),
         magnitude(line.error),
         magnitude(line.tolerance),
         verdict(line).to_owned(),

@@ -89,7 +89,8 @@ impl Column {
         let aside = (all - axis * all.dot(axis)).norm();
         let bent_anyway =
             aside > STRAIGHT * all.norm() || at_head().any(|load| load.wrench.angular != Vec3::ZERO);
-        if bent_anyway || !loads.stretches.is_empty() || loads.points.len() > at_head().count() {
+        let pulled = !loads.pulls.is_empty() || !loads.pulled_stretches.is_empty();
+        if bent_anyway || pulled || !loads.stretches.is_empty() || loads.points.len() > at_head().count() {
             return;
         }
         let stiffness = softer_bending(rod);

@@ -54,7 +54,8 @@ pub(super) fn look_at_rod(remarks: &mut Remarks<'_>, view: &View<'_>) {
         let by = rest[node].between(&support.pose).log();
         by.angular.max_abs().max(by.linear.max_abs() / length) > AS_IT_IS
     });
-    let loaded = loads.world.iter().chain(&loads.body).any(|load| *load != Vec6::ZERO);
+    let loaded =
+        loads.world.iter().chain(&loads.body).any(|load| *load != Vec6::ZERO) || !loads.pulls().is_empty();
     if !moved && !loaded && view.rod.hand.is_none() {
         remarks.note(
             &view.path,

@@ -51,6 +51,11 @@ impl Numbers {
                 Frame::Body => following += force.norm(),
             }
         }
+        following += loads
+            .pulled_stretches
+            .iter()
+            .map(|pull| (pull.tension_per_length * (pull.to - pull.from)).abs())
+            .sum::<f64>();
         let points = |of: &dyn Fn(&strands::load::PointLoad) -> f64| {
             loads.points.iter().map(of).fold(0.0, |sum, x| sum + x)
         };
@@ -60,7 +65,8 @@ impl Numbers {
             gyration: gyration(rod),
             bending: softer_bending(rod),
             weight: (dead.norm() + following) / length,
-            force: points(&|load| load.wrench.linear.norm()),
+            force: points(&|load| load.wrench.linear.norm())
+                + loads.pulls.iter().map(|pull| pull.tension.abs()).sum::<f64>(),
             moment: points(&|load| load.wrench.angular.norm()),
             tension: Tension { value: 0.0, found: false },
         };

@@ -62,7 +62,8 @@ pub enum FixName {
     Twist,
 }
 
-/// A load: at a point (`at` with `force`, `moment`) or along a stretch (`from`, `to` with `force_per_length`, `moment_per_length`).
+/// A load: at a point (`at` with `force`, `moment`) or along a stretch (`from`, `to` with `force_per_length`, `moment_per_length`); or a pull towards a
+/// point that stays where it is (`towards` with `tension` or `tension_per_length`), as of a guy wire under constant tension.
 #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields, expecting = "a table")]
 pub struct LoadFile {
@@ -87,6 +88,15 @@ pub struct LoadFile {
     /// Moment per unit length, N.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub moment_per_length: Option<[f64; 3]>,
+    /// The point that it pulls towards wherever the rod moves, m, world axes.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub towards: Option<[f64; 3]>,
+    /// How hard it pulls towards the point, N. Negative pushes away.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub tension: Option<f64>,
+    /// The same per unit length, N/m.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub tension_per_length: Option<f64>,
     /// The frame in which it is given and keeps its direction. Default "world".
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub frame: Option<FrameName>,

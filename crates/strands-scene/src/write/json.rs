@@ -26,7 +26,7 @@ struct ReactionAnswer {
 
 /// The answer of a solve that converged, one JSON object.
 ///
-/// `iterations`, `energy` (elastic and of dead loads, J) and `morse_index` are sums over the rods, `residual` is the largest;
+/// `iterations`, `energy` (elastic and of the loads, J) and `morse_index` are sums over the rods, `residual` is the largest;
 /// `morse_index` and `stable` are null where the loads have no potential. `method` is null where rods were solved in different ways. Reactions are those
 /// of the places that are held. `solve_seconds` is left out where it is not known.
 pub fn json(model: &Model, solutions: &[(&str, &Solution)], solve_seconds: Option<f64>) -> String {

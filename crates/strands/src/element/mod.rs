@@ -26,8 +26,8 @@ pub(crate) use diagonal::{
 };
 
 use crate::math::{
-    ExpCoefficients, Mat3, Mat6, Pose, Real, Strain, Stress, Vec3, Vec6, Vector, Wrench, exp_coefficients,
-    exp_coefficients_second, lu, tangent,
+    ExpCoefficients, Lu, Mat3, Mat6, Pose, Real, Strain, Stress, Vec3, Vec6, Vector, Wrench,
+    exp_coefficients, exp_coefficients_second, lu, tangent,
 };
 use crate::rod::{Kinematics, Order, Point, Rod};
 
@@ -144,7 +144,7 @@ pub(crate) fn solve_general(
     let mut strain = guess;
     for _ in 0..MAX_LOCAL_ITERATIONS {
         let system = LocalSystem::new(order, h, points, w, &strain);
-        let step = system.solve(free, &system.residual)?;
+        let step = system.factored(free)?.solve(&system.residual);
         let mut largest = 0.0_f64;
         for (i, strain) in strain.iter_mut().enumerate().take(points.len()) {
             let step = Strain::from(core::array::from_fn::<f64, 6, _>(|k| step[6 * i + k]));
@@ -184,6 +184,7 @@ pub(crate) fn flexibility(
 ) -> Option<Mat6> {
     let free = free_strains(kinematics);
     let system = LocalSystem::new(order, h, points, w, strain);
+    let factors = system.factored(free)?;
     let omega = exponent(order, h, strain);
     let t = tangent(omega);
     let transpose = t.transpose();
@@ -196,7 +197,7 @@ pub(crate) fn flexibility(
             strain,
             if order == Order::First { unit } else { transpose.mul_vec(unit) },
         );
-        let step = system.solve(free, &rhs)?;
+        let step = factors.solve(&rhs);
         let d: PointStrains = core::array::from_fn(|i| {
             Strain::from(core::array::from_fn::<f64, 6, _>(|k| step[6 * i.min(points.len() - 1) + k]))
         });
@@ -326,24 +327,65 @@ impl LocalSystem {
         rhs
     }
 
-    /// Solves for the free strains, the first `free` of each six.
-    fn solve(&self, free: usize, rhs: &[f64; 12]) -> Option<[f64; 12]> {
-        let active = |i: usize| i < self.size && i % 6 < free;
-        let mut a = [[0.0; 12]; 12];
-        let mut b = [0.0; 12];
-        for i in 0..12 {
-            if active(i) {
-                // Rows are scaled by their diagonal: bending and stretching differ by many orders of magnitude.
-                let scale = 1.0 / self.matrix[i][i].abs().max(f64::MIN_POSITIVE);
-                b[i] = rhs[i] * scale;
-                for j in 0..12 {
-                    a[i][j] = if active(j) { self.matrix[i][j] * scale } else { 0.0 };
-                }
-            } else {
-                a[i][i] = 1.0;
+    /// Factors the equations of the free strains, the first `free` of each six.
+    fn factored(&self, free: usize) -> Option<LocalFactors> {
+        let unknowns = (0..self.size).filter(|i| i % 6 < free);
+        // Rows are scaled by their diagonal: bending and stretching differ by many orders of magnitude.
+        let scales = core::array::from_fn(|i| 1.0 / self.matrix[i][i].abs().max(f64::MIN_POSITIVE));
+        let mut places = [None; 12];
+        places.iter_mut().zip(unknowns).for_each(|(place, i)| *place = Some(i));
+        let factors = match places[6] {
+            None => Factors::Six(lu(self.rows(&places, &scales))?),
+            Some(_) => Factors::Twelve(lu(self.rows(&places, &scales))?),
+        };
+        Some(LocalFactors { places, scales, factors })
+    }
+
+    /// The scaled equations of the unknowns at so many places; a place without one keeps its own row of the identity.
+    fn rows<const N: usize>(&self, places: &[Option<usize>; 12], scales: &[f64; 12]) -> [[f64; N]; N] {
+        let entry = |i: usize, j: usize| match (places[i], places[j]) {
+            (Some(row), Some(column)) => self.matrix[row][column] * scales[row],
+            _ => f64::from(u8::from(i == j)),
+        };
+        core::array::from_fn(|i| core::array::from_fn(|j| entry(i, j)))
+    }
+}
+
+/// The equations of an element's free strains, factored: which of the twelve are unknown, by what their rows were scaled, and the factors, of as few
+/// rows as will do.
+struct LocalFactors {
+    places: [Option<usize>; 12],
+    scales: [f64; 12],
+    factors: Factors,
+}
+
+#[expect(clippy::large_enum_variant, reason = "lives on the stack for the time of an element")]
+enum Factors {
+    Six(Lu<6>),
+    Twelve(Lu<12>),
+}
+
+impl LocalFactors {
+    /// The changes of all strains, zero for those that are not free.
+    fn solve(&self, rhs: &[f64; 12]) -> [f64; 12] {
+        let mut solution = [0.0; 12];
+        match &self.factors {
+            Factors::Six(factors) => self.put(&factors.solve(&self.take(rhs)), &mut solution),
+            Factors::Twelve(factors) => self.put(&factors.solve(&self.take(rhs)), &mut solution),
+        }
+        solution
+    }
+
+    fn take<const N: usize>(&self, rhs: &[f64; 12]) -> [f64; N] {
+        core::array::from_fn(|i| self.places[i].map_or(0.0, |place| rhs[place] * self.scales[place]))
+    }
+
+    fn put<const N: usize>(&self, unknowns: &[f64; N], solution: &mut [f64; 12]) {
+        for (place, unknown) in self.places.iter().zip(unknowns) {
+            if let Some(place) = place {
+                solution[*place] = *unknown;
             }
         }
-        Some(lu(a)?.solve(&b))
     }
 }
 

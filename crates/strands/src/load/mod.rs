@@ -1,6 +1,6 @@
-//! What acts on a rod: gravity, forces and moments at points and along stretches, dead or following.
+//! What acts on a rod: gravity, forces and moments at points and along stretches, dead or following, and forces towards a fixed point.
 
-use crate::math::{Vec3, Wrench};
+use crate::math::{Mat3, Vec3, Wrench};
 use crate::rod::{Rod, RodError};
 
 /// The frame in which a load keeps its direction.
@@ -37,20 +37,85 @@ pub struct DistributedLoad {
     pub frame: Frame,
 }
 
-/// The loads of a rod, summed onto its nodes: at each a dead wrench in world axes and a follower wrench in body axes, both about the node.
+/// A force of constant size at a point of the rod, towards a point of the world wherever the rod moves: a guy wire under constant tension, as one
+/// that runs over a pulley there to a weight. Its energy is its tension times how long the wire is.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct PointPull {
+    /// Where, m from the rod's start. The mesh must have a node there.
+    pub at: f64,
+    /// The point it pulls towards, m, world axes.
+    pub towards: Vec3,
+    /// How hard, N. Negative pushes away.
+    pub tension: f64,
+}
+
+/// The same per unit rest length along a stretch of the rod.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct DistributedPull {
+    /// Start of the stretch, m. The mesh must have a node there.
+    pub from: f64,
+    /// End of the stretch, m. The mesh must have a node there.
+    pub to: f64,
+    /// The point it pulls towards, m, world axes.
+    pub towards: Vec3,
+    /// How hard, N/m. Negative pushes away.
+    pub tension_per_length: f64,
+}
+
+/// A pull towards a point at a node.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Pull {
+    /// The node.
+    pub node: usize,
+    /// The point it pulls towards, m, world axes.
+    pub towards: Vec3,
+    /// How hard, N.
+    pub tension: f64,
+}
+
+impl Pull {
+    /// The force on its node at a place, N, world axes; none where the node has arrived.
+    pub fn force(&self, place: Vec3) -> Vec3 {
+        self.direction(place).map_or(Vec3::ZERO, |(along, _)| along * self.tension)
+    }
+
+    /// How the force changes with the place, `∂f/∂p = −(T/d) (1 − e eᵀ)` at a distance `d` in the direction `e`, N/m.
+    pub fn slope(&self, place: Vec3) -> Mat3 {
+        self.direction(place).map_or(Mat3::ZERO, |(along, distance)| {
+            (Mat3::outer(along, along) - Mat3::IDENTITY).scaled(self.tension / distance)
+        })
+    }
+
+    /// Its energy with the node at a place, `T d`, J.
+    pub fn energy(&self, place: Vec3) -> f64 {
+        self.tension * (self.towards - place).norm()
+    }
+
+    /// Where to, and how far it is, m.
+    fn direction(&self, place: Vec3) -> Option<(Vec3, f64)> {
+        let way = self.towards - place;
+        let distance = way.norm();
+        (distance > 0.0).then(|| (way * (1.0 / distance), distance))
+    }
+}
+
+/// The loads of a rod, summed onto its nodes: at each a dead wrench in world axes and a follower wrench in body axes, both about the node; and the
+/// pulls towards points.
 #[derive(Clone, Debug, PartialEq)]
 pub struct NodalLoads {
     /// Dead wrenches, world axes, N·m and N.
     pub world: Vec<Wrench>,
     /// Follower wrenches, body axes, N·m and N.
     pub body: Vec<Wrench>,
+    /// Pulls towards points, by their nodes.
+    pulls: Vec<Pull>,
 }
 
 impl NodalLoads {
     /// No load on a rod.
     pub fn none(rod: &Rod) -> Self {
         let nodes = rod.mesh().nodes().len();
-        Self { world: vec![Wrench::ZERO; nodes], body: vec![Wrench::ZERO; nodes] }
+        Self { world: vec![Wrench::ZERO; nodes], body: vec![Wrench::ZERO; nodes], pulls: Vec::new() }
     }
 
     /// Adds the weight in a field of gravity, m/s², world axes.
@@ -78,23 +143,80 @@ impl NodalLoads {
     /// # Errors
     /// Where no node lies at one of its ends, or it ends before it starts.
     pub fn with_distributed(mut self, rod: &Rod, load: &DistributedLoad) -> Result<Self, RodError> {
-        let (from, to) = (load.from, load.to);
-        let [start, end] = [node(rod, "a load's start", from)?, node(rod, "a load's end", to)?];
-        if start > end {
-            return Err(RodError::Backwards { what: "a load", from, to });
-        }
+        stretch(rod, load.from, load.to)?;
         let target = self.of(load.frame);
-        rod.mesh().distribute(rod.order(), from, to, |node, _, _, weight| {
+        rod.mesh().distribute(rod.order(), load.from, load.to, |node, _, _, weight| {
             target[node] += load.per_length * weight;
         });
         Ok(self)
     }
 
+    /// Adds a pull towards a point.
+    ///
+    /// # Errors
+    /// Where no node lies there.
+    pub fn with_pull(mut self, rod: &Rod, pull: &PointPull) -> Result<Self, RodError> {
+        let node = node(rod, "a load", pull.at)?;
+        self.put(Pull { node, towards: pull.towards, tension: pull.tension });
+        Ok(self)
+    }
+
+    /// Adds a pull along a stretch towards a point, summed onto the nodes as [`NodalLoads::with_distributed`] does.
+    ///
+    /// # Errors
+    /// Where no node lies at one of its ends, or it ends before it starts.
+    pub fn with_distributed_pull(mut self, rod: &Rod, pull: &DistributedPull) -> Result<Self, RodError> {
+        stretch(rod, pull.from, pull.to)?;
+        rod.mesh().distribute(rod.order(), pull.from, pull.to, |node, _, _, weight| {
+            self.put(Pull { node, towards: pull.towards, tension: pull.tension_per_length * weight });
+        });
+        Ok(self)
+    }
+
+    /// The pulls towards points, by their nodes.
+    pub fn pulls(&self) -> &[Pull] {
+        &self.pulls
+    }
+
+    /// The force of the pulls on a node at a place, N, world axes.
+    pub(crate) fn pulled(&self, node: usize, place: Vec3) -> Vec3 {
+        self.pulls_at(node).iter().fold(Vec3::ZERO, |sum, pull| sum + pull.force(place))
+    }
+
+    /// Those at a node.
+    pub fn pulls_at(&self, node: usize) -> &[Pull] {
+        let from = self.pulls.partition_point(|pull| pull.node < node);
+        let to = self.pulls.partition_point(|pull| pull.node <= node);
+        &self.pulls[from..to]
+    }
+
+    /// Adds a pull to those of its node; to one towards the same point.
+    fn put(&mut self, pull: Pull) {
+        let to = self.pulls.partition_point(|other| other.node <= pull.node);
+        let same = self.pulls[..to].iter_mut().rev().take_while(|other| other.node == pull.node);
+        match same.into_iter().find(|other| other.towards == pull.towards) {
+            Some(other) => other.tension += pull.tension,
+            None => self.pulls.insert(to, pull),
+        }
+    }
+
+    /// Makes each load `factor` times what it is in others of the same rod, without making room for them.
+    pub(crate) fn set_scaled(&mut self, whole: &Self, factor: f64) {
+        let scale = |now: &mut [Wrench], whole: &[Wrench]| {
+            now.iter_mut().zip(whole).for_each(|(now, whole)| *now = *whole * factor);
+        };
+        scale(&mut self.world, &whole.world);
+        scale(&mut self.body, &whole.body);
+        let pulls = self.pulls.iter_mut().zip(&whole.pulls);
+        pulls.for_each(|(now, whole)| now.tension = whole.tension * factor);
+    }
+
     /// Each load times `factor`.
     #[must_use]
     pub fn scaled(&self, factor: f64) -> Self {
-        let scale = |loads: &[Wrench]| loads.iter().map(|load| *load * factor).collect();
-        Self { world: scale(&self.world), body: scale(&self.body) }
+        let mut scaled = self.clone();
+        scaled.set_scaled(self, factor);
+        scaled
     }
 
     /// Whether any dead load acts, so that the stress depends on where the rod points.
@@ -108,6 +230,12 @@ impl NodalLoads {
             Frame::Body => &mut self.body,
         }
     }
+}
+
+/// Whether a load may act along a stretch.
+fn stretch(rod: &Rod, from: f64, to: f64) -> Result<(), RodError> {
+    let [start, end] = [node(rod, "a load's start", from)?, node(rod, "a load's end", to)?];
+    if start > end { Err(RodError::Backwards { what: "a load", from, to }) } else { Ok(()) }
 }
 
 /// The node at a place on a rod, where something acts.

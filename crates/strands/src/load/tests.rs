@@ -57,3 +57,35 @@ fn a_load_where_it_cannot_act_is_refused_and_says_where_it_could() {
     let between = none().with_distributed(&rod, &along(0.25, 0.8)).unwrap_err();
     assert!(between.to_string().starts_with("a load's start at s = 0.25 lies between nodes"), "{between}");
 }
+
+#[test]
+fn a_pull_is_the_slope_of_its_energy_and_its_slope_that_of_the_pull() {
+    let pull = Pull { node: 3, towards: Vec3::new(0.3, -0.2, 0.9), tension: 1.7 };
+    let place = Vec3::new(-0.4, 0.5, 0.1);
+    let step = 1e-6;
+    for axis in [Vec3::X, Vec3::Y, Vec3::Z] {
+        let (ahead, behind) = (place + axis * step, place - axis * step);
+        let by_energy = -(pull.energy(ahead) - pull.energy(behind)) / (2.0 * step);
+        assert!((by_energy - pull.force(place).dot(axis)).abs() < 1e-9);
+        let slope = (pull.force(ahead) - pull.force(behind)) * (0.5 / step);
+        assert!((slope - pull.slope(place) * axis).norm() < 1e-9, "{slope:?}");
+    }
+    assert!((pull.force(place).norm() - 1.7).abs() < 1e-15);
+    assert_eq!(pull.force(pull.towards), Vec3::ZERO);
+    assert_eq!(pull.slope(pull.towards), Mat3::ZERO);
+}
+
+#[test]
+fn pulls_of_a_node_towards_one_point_are_one_and_are_found_by_their_node() {
+    let rod = rod(Order::Second);
+    let (low, high) = (Vec3::X, Vec3::Z * 2.0);
+    let along = |from, to| DistributedPull { from, to, towards: low, tension_per_length: 3.0 };
+    let loads = NodalLoads::none(&rod).with_distributed_pull(&rod, &along(0.5, 1.0)).unwrap();
+    let loads = loads.with_pull(&rod, &PointPull { at: 0.5, towards: high, tension: 1.0 }).unwrap();
+    let loads = loads.with_distributed_pull(&rod, &along(0.0, 0.5)).unwrap();
+    assert_eq!((loads.pulls().len(), loads.pulls_at(5).len()), (12, 2));
+    assert!(loads.pulls().is_sorted_by_key(|pull| pull.node));
+    let sum: f64 = loads.scaled(2.0).pulls().iter().map(|pull| pull.tension).sum();
+    assert!((sum - 8.0).abs() < 1e-14, "{sum}");
+    assert!(loads.with_distributed_pull(&rod, &along(0.5, 0.2)).is_err());
+}

@@ -11,6 +11,7 @@ use super::march::{Section, turned};
 use super::problem::{Problem, Support};
 use super::solution::Guess;
 use super::variation::{Columns, Variation, turned_by};
+use crate::load::Pull;
 use crate::math::{Mat3, Mat6, Pose, Quat, Vec3, Vec6, Wrench, tangent, tangent_inverse};
 use crate::rod::Scale;
 
@@ -29,6 +30,8 @@ pub(crate) struct Node<'a> {
     world: Wrench,
     /// The follower wrench, body axes.
     body: Wrench,
+    /// The pulls towards points.
+    pulls: &'a [Pull],
 }
 
 /// How a node is held that nothing holds.
@@ -51,8 +54,9 @@ impl<'a> Node<'a> {
         Self::new(problem, node, problem.support(node).unwrap_or(FREE))
     }
 
-    fn new(problem: &Problem, node: usize, support: &'a Support) -> Self {
-        Self { support, world: problem.loads.world[node], body: problem.loads.body[node] }
+    fn new(problem: &'a Problem, node: usize, support: &'a Support) -> Self {
+        let loads = &problem.loads;
+        Self { support, world: loads.world[node], body: loads.body[node], pulls: loads.pulls_at(node) }
     }
 }
 
@@ -147,9 +151,10 @@ impl EndState {
         }
     }
 
-    /// What acts on the node in world axes: dead loads, the reaction's force, the grip.
+    /// What acts on the node in world axes: dead loads, pulls, the reaction's force, the grip.
     fn world_wrench(&self, node: &Node) -> Wrench {
         let mut world = node.world;
+        node.pulls.iter().for_each(|pull| world.linear += pull.force(self.pose.position));
         world.linear += node.support.shift_axes * self.reaction.linear;
         if let Some(grip) = &node.support.grip {
             world += grip.wrench(&self.pose);
@@ -190,8 +195,11 @@ impl EndState {
                 }
                 (false, false) => {
                     column.frame.linear = rotation.transpose_mul(axis);
+                    for pull in node.pulls {
+                        column.wrench.linear += rotation.transpose_mul(pull.slope(self.pose.position) * axis);
+                    }
                     if let Some((_, by_shift)) = &grip {
-                        column.wrench.linear = rotation.transpose_mul(*by_shift * axis);
+                        column.wrench.linear += rotation.transpose_mul(*by_shift * axis);
                     }
                 }
             }
@@ -299,7 +307,9 @@ pub(crate) fn renormalised(rotation: Mat3) -> Mat3 {
 
 /// The section at the start with the first node's loads: its wrench is the opposite of the start's reaction, in the frame.
 pub(crate) fn loaded_start(problem: &Problem, start: &Section) -> Section {
-    let loads = problem.loads.body[0] + turned(&start.pose, problem.loads.world[0]);
+    let mut world = problem.loads.world[0];
+    world.linear += problem.loads.pulled(0, start.pose.position);
+    let loads = problem.loads.body[0] + turned(&start.pose, world);
     Section { pose: start.pose, wrench: start.wrench + loads }
 }
 

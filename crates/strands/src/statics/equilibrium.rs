@@ -154,11 +154,7 @@ impl Mild {
     /// so does what there is to spare, where the hard problem has any.
     fn set(&self, problem: &Problem, at: f64, family: &mut Problem) {
         let load = self.load.powf(1.0 - at);
-        let scale = |now: &mut [Wrench], whole: &[Wrench]| {
-            now.iter_mut().zip(whole).for_each(|(now, whole)| *now = *whole * load);
-        };
-        scale(&mut family.loads.world, &problem.loads.world);
-        scale(&mut family.loads.body, &problem.loads.body);
+        family.loads.set_scaled(&problem.loads, load);
         let mut beyond = Vec3::ZERO;
         for stretch in &self.stretches {
             let hard = stretch.spare();
@@ -228,9 +224,9 @@ pub(crate) fn from_guess(
     move_on(problem, settings, workspace, report)
 }
 
-/// Whether the state that a guess stands for is at hand: what supports between the ends bear is not in the guess itself.
+/// Whether the state that a guess stands for is at hand: what supports between the ends bear, and how pulls act, is not in the guess itself.
 pub(crate) fn is_known(guess: &Guess, problem: &Problem, workspace: &Workspace) -> bool {
-    problem.between.is_empty() || holds_state_of(guess, problem, &workspace.record)
+    problem.can_be_shot() || holds_state_of(guess, problem, &workspace.record)
 }
 
 /// Puts the state that a guess stands for into the workspace, where it is not there yet: what a march from the guess makes.

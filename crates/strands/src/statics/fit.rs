@@ -9,7 +9,8 @@ use std::borrow::Cow;
 /// Why a problem cannot be posed as it is; `None` where it can.
 pub(crate) fn unfit(problem: &Problem, settings: &Settings) -> Option<FailureReason> {
     let nodes = problem.rod.elements() + 1;
-    for loads in [problem.loads.world.len(), problem.loads.body.len()] {
+    let pulled = problem.loads.pulls().last().map_or(nodes, |pull| nodes.max(pull.node + 1));
+    for loads in [problem.loads.world.len(), problem.loads.body.len(), pulled] {
         if loads != nodes {
             return Some(FailureReason::LoadsOfAnotherRod { loads, nodes });
         }
@@ -26,6 +27,9 @@ pub(crate) fn unfit(problem: &Problem, settings: &Settings) -> Option<FailureRea
     if shoots && !problem.between.is_empty() {
         return Some(FailureReason::HeldBetween);
     }
+    if (shoots || settings.method == Method::MultipleShooting) && !problem.loads.pulls().is_empty() {
+        return Some(FailureReason::PulledToAPoint);
+    }
     if settings.scheme == Scheme::Multistep && settings.method == Method::MultipleShooting {
         return Some(FailureReason::SchemeOfSegments);
     }
@@ -39,7 +43,7 @@ pub(crate) fn unfit(problem: &Problem, settings: &Settings) -> Option<FailureRea
 /// A problem to look at where it cannot be posed: without loads that are not the rod's, and without what is at nodes that it has not.
 pub(crate) fn fitted(problem: &Problem) -> Cow<'_, Problem> {
     let nodes = problem.rod.elements() + 1;
-    if problem.loads.world.len() == nodes && problem.loads.body.len() == nodes && problem.between.is_empty() {
+    if problem.loads.world.len() == nodes && problem.loads.body.len() == nodes && problem.can_be_shot() {
         return Cow::Borrowed(problem);
     }
     let loads = NodalLoads::none(&problem.rod);

@@ -54,7 +54,10 @@ impl Record {
 
     /// The same with what acts on the node: what the element before it carries where nothing holds the node.
     pub fn carried_with_loads(&self, node: usize, loads: &NodalLoads) -> Wrench {
-        self.carried_beyond(node) + loads.body[node] + turned(&self.poses[node], loads.world[node])
+        let pose = &self.poses[node];
+        let mut world = loads.world[node];
+        world.linear += loads.pulled(node, pose.position);
+        self.carried_beyond(node) + loads.body[node] + turned(pose, world)
     }
 
     /// The largest force that an element carries, N.

@@ -223,7 +223,7 @@ fn all_at_once(problem: &Problem, settings: &Settings, guess: &Guess) -> bool {
     let tension = guess.wrench.linear.z.max(0.0) / problem.rod.scale().force + problem.load_size();
     let taut = tension > LONGEST_SHOT * LONGEST_SHOT;
     settings.method == Method::Equilibrium
-        || !problem.between.is_empty()
+        || !problem.can_be_shot()
         || settings.method == Method::Auto && has_energy(problem, settings) && is_held(problem) && taut
 }
 
@@ -441,7 +441,9 @@ fn solution(problem: &Problem, search: &Search, workspace: &Workspace, report: S
             }
         });
     }
-    let load = record.poses.iter().zip(&problem.loads.world).map(|(p, l)| -l.linear.dot(p.position)).sum();
+    let dead = record.poses.iter().zip(&problem.loads.world).map(|(p, l)| -l.linear.dot(p.position));
+    let pulls = problem.loads.pulls().iter().map(|pull| pull.energy(record.poses[pull.node].position));
+    let load = dead.chain(pulls).sum();
     let start = loaded_start(problem, &search.start);
     let at_start = Reaction {
         s: 0.0,
@@ -509,7 +511,7 @@ impl Solution {
         };
         for (i, pose) in self.poses.iter().enumerate() {
             let (world, body) = (problem.loads.world[i], problem.loads.body[i]);
-            add(world.linear, world.angular, pose.position);
+            add(world.linear + problem.loads.pulled(i, pose.position), world.angular, pose.position);
             add(pose.rotation * body.linear, pose.rotation * body.angular, pose.position);
         }
         for (reaction, (node, _)) in self.reactions.iter().zip(problem.supports()) {

@@ -166,6 +166,12 @@ impl Nodal {
             if world.linear != Vec3::ZERO {
                 slope.blocks[0] = dead_moment_slope(at, world.linear);
             }
+            for pull in problem.loads.pulls_at(i) {
+                let force = pull.force(pose.position) * (1.0 / axes.force);
+                load += Wrench::new(at.cross(force), force);
+                let by_shift = pull.slope(pose.position).scaled(axes.length / axes.force);
+                slope = slope.add(&force_slope(at, force, [Mat3::ZERO, by_shift]));
+            }
             if body != Wrench::ZERO {
                 let carried = axes.frame(pose).carry_wrench(body);
                 load += carried;
@@ -184,11 +190,7 @@ impl Nodal {
             let (by_turn, by_shift) = grip.stiffness(pose);
             let by_turn = by_turn.scaled(1.0 / axes.moment) * pose.rotation.transpose();
             let by_shift = by_shift.scaled(axes.length / axes.force);
-            let force = [(by_shift * Mat3::hat(at)).scaled(-1.0), by_shift];
-            let dead = dead_moment_slope(at, wrench.linear);
-            let arm = Mat3::hat(at);
-            let moment = [by_turn + arm * force[0] + dead[0], arm * force[1] + dead[1]];
-            self.load_slopes.push((node, Mat6 { blocks: [moment, force] }.to_rows()));
+            self.load_slopes.push((node, force_slope(at, wrench.linear, [by_turn, by_shift]).to_rows()));
         }
         self.load_slopes.sort_unstable_by_key(|(node, _)| *node);
     }
@@ -405,6 +407,14 @@ impl<R: Real> Hold<R> {
 fn dead_moment_slope(at: Vec3, force: Vec3) -> [Mat3; 2] {
     let force = Mat3::hat(force);
     [force * Mat3::hat(at), force.scaled(-1.0)]
+}
+
+/// How a wrench at a place, its moment about the origin, changes with the frame there, where its moment about the place changes by so much with the
+/// turn, and its force with the shift.
+fn force_slope(at: Vec3, force: Vec3, [by_turn, by_shift]: [Mat3; 2]) -> Mat6 {
+    let (arm, dead) = (Mat3::hat(at), dead_moment_slope(at, force));
+    let force = [(by_shift * arm).scaled(-1.0), by_shift];
+    Mat6 { blocks: [[by_turn + arm * force[0] + dead[0], arm * force[1] + dead[1]], force] }
 }
 
 /// Elements of a rod of order 2 with a diagonal law, side by side, in the fixed axes.

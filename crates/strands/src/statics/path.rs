@@ -176,10 +176,6 @@ fn set(family: &mut Problem, problem: &Problem, from: &Guess, change: Change, at
         Change::EndMoves(nudge) => (1.0, nudge * (1.0 - at)),
     };
     let nudge = nudge * (1.0 / problem.rod.elements() as f64);
-    for (now, whole) in family.loads.world.iter_mut().zip(&problem.loads.world) {
-        *now = *whole * share + Wrench::new(Vec3::ZERO, nudge);
-    }
-    for (now, whole) in family.loads.body.iter_mut().zip(&problem.loads.body) {
-        *now = *whole * share;
-    }
+    family.loads.set_scaled(&problem.loads, share);
+    family.loads.world.iter_mut().for_each(|load| load.linear += nudge);
 }

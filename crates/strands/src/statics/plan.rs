@@ -31,6 +31,9 @@ pub(super) enum Way {
     Segments,
 }
 
+const PULLED: &str =
+    "a load pulls towards a point, and so turns with where the rod is, which shooting does not follow";
+
 /// The way that [`solve`](super::solve) tries first with these settings, from a guess or from rest.
 pub fn plan(problem: &Problem, settings: &Settings, guess: Option<&Guess>) -> Plan {
     let auto = settings.method == Method::Auto;
@@ -53,6 +56,7 @@ pub fn plan(problem: &Problem, settings: &Settings, guess: Option<&Guess>) -> Pl
         let why = match settings.method {
             Method::Equilibrium => "it was asked for",
             _ if !problem.between.is_empty() => "the rod is held between its ends, which shooting cannot do",
+            _ if !problem.loads.pulls().is_empty() => PULLED,
             _ => "the rod is too taut for shooting, which loses a factor exp(L/ℓ) of accuracy",
         };
         return Plan { method: Method::Equilibrium, why, way };
@@ -67,6 +71,9 @@ pub fn plan(problem: &Problem, settings: &Settings, guess: Option<&Guess>) -> Pl
         let why =
             "the rod is held by more than a clamp at its start, so all frames move at once to where it rests";
         return Plan { method: Method::Equilibrium, why, way: Way::Settle };
+    }
+    if !problem.loads.pulls().is_empty() {
+        return Plan { method: Method::Equilibrium, why: PULLED, way: Way::Settle };
     }
     let why = if standard {
         "its start is clamped and its end free, and the loads keep their directions: sweeps, repeated until the end's angle is right, as the \

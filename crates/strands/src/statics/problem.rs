@@ -156,7 +156,14 @@ impl Problem {
     /// The forces that act on the rod, all together, over `EI/L²`.
     pub(crate) fn load_size(&self) -> f64 {
         let forces = self.loads.world.iter().chain(&self.loads.body).map(|load| load.linear.norm());
-        forces.sum::<f64>() / self.rod.scale().force
+        let pulls = self.loads.pulls().iter().map(|pull| pull.tension.abs());
+        forces.chain(pulls).sum::<f64>() / self.rod.scale().force
+    }
+
+    /// Whether all that acts before an end is known along the way from it: not what supports between the ends bear, and in which direction a pull
+    /// acts only at its node.
+    pub(crate) fn can_be_shot(&self) -> bool {
+        self.between.is_empty() && self.loads.pulls().is_empty()
     }
 
     /// A rod clamped at its base frame, its other end free, nothing acting on it.

@@ -116,7 +116,7 @@ impl Seeker<'_> {
                     self.lay_out_at_random();
                     self.nearest();
                 }
-                _ if self.problem.between.is_empty() => self.shoot_at_random(),
+                _ if self.problem.can_be_shot() => self.shoot_at_random(),
                 _ => {
                     self.lay_out_at_random();
                     self.nearest();
@@ -283,8 +283,7 @@ impl Excursion {
                 }
             }
             Self::Loads => {
-                let all = led.loads.world.iter_mut().chain(&mut led.loads.body);
-                all.for_each(|load| *load = *load * (1.0 - 2.0 * at));
+                led.loads.set_scaled(&problem.loads, 1.0 - 2.0 * at);
             }
         }
         led

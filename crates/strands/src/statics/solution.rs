@@ -128,7 +128,7 @@ pub struct Reaction {
 pub struct Energy {
     /// Stored in the rod.
     pub elastic: f64,
-    /// Of the dead forces: minus force times position.
+    /// Of the dead forces, minus force times position; and of the pulls towards points, tension times distance.
     pub load: f64,
 }
 
@@ -289,6 +289,12 @@ pub enum FailureReason {
          method = \"auto\", \"equilibrium\" or \"multiple_shooting\""
     )]
     HeldBetween,
+    /// Shooting was asked for, and it does not follow loads towards a point.
+    #[error(
+        "shooting, and with it the multistep scheme, takes loads that keep their direction in the world or in the rod, and here one pulls towards a \
+         point; use method = \"auto\" or \"equilibrium\""
+    )]
+    PulledToAPoint,
     /// A support between the ends is not at a node between them, or they are out of order.
     #[error(
         "supports between the ends must be at nodes 1 to {} in growing order, each once, and there is one at node {node}; find a node by \

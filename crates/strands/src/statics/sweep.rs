@@ -22,6 +22,9 @@ pub(crate) fn not_standard(problem: &Problem) -> Option<&'static str> {
     if !problem.between.is_empty() {
         return Some("it is held between its ends");
     }
+    if !problem.loads.pulls().is_empty() {
+        return Some("a load pulls towards a point");
+    }
     if problem.end.grip.is_some() {
         return Some("a hand holds the end through a coupling");
     }

@@ -8,6 +8,7 @@ mod continuation;
 mod fit;
 mod meshes;
 mod multiple_shooting;
+mod pulls;
 mod schemes;
 mod search;
 mod supports;
