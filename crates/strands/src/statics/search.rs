@@ -33,7 +33,7 @@ pub struct SearchSettings {
 
 impl Default for SearchSettings {
     fn default() -> Self {
-        Self { solver: Settings::default(), starts: 16_000, paths: 60, seed: 0 }
+        Self { solver: Settings::default(), starts: 20_000, paths: 20, seed: 0 }
     }
 }
 
@@ -72,12 +72,10 @@ pub fn equilibria(
     seeker.follow_paths(settings.paths);
     let mut all = seeker.found;
     if problem.rod.order() != Order::Second {
-        let random = Rng::new();
-        let mut seeker = Seeker { problem, solver, workspace, random, found: Vec::new() };
-        for rough in all {
-            seeker.workspace.record = rough.record;
-            seeker.nearest();
-        }
+        let random = seeker.random;
+        let mut seeker = Seeker { problem, solver, workspace: seeker.workspace, random, found: Vec::new() };
+        seeker.refine(&all);
+        seeker.shoot_some_more(settings.starts / 40);
         all = seeker.found;
     }
     Ok(all.into_iter().map(|found| found.solution).collect())
@@ -122,11 +120,24 @@ impl Seeker<'_> {
     }
 
     /// The same by multiple shooting, which gives up early where there is none near.
-    fn nearest_by_shooting(&mut self) {
+    fn nearest_by_shooting(&mut self) -> Outcome {
         let mut report =
             SolveReport { method: Method::MultipleShooting, path_steps: 1, ..SolveReport::default() };
         let outcome = multiple_shooting::nearest(self.problem, &self.solver, self.workspace, &mut report);
         self.keep(found(self.problem, outcome, self.workspace), report);
+        outcome
+    }
+
+    /// Finds what has been found on other elements on the problem's own.
+    fn refine(&mut self, rough: &[Found]) {
+        for other in rough {
+            self.workspace.record.clone_from(&other.record);
+            let outcome = self.nearest_by_shooting();
+            if outcome != Outcome::Converged {
+                self.workspace.record.clone_from(&other.record);
+                self.nearest();
+            }
+        }
     }
 
     /// Keeps what a search has found, if it is new.

@@ -2,9 +2,9 @@
 //!
 //! Three kinds of start take turns, of which each finds what the others miss:
 //!
-//! - a *shape*: the rod bent and twisted at random between its supports, from where Newton's method on all frames at once goes, seldom far, to what
-//!   is near, stable or not;
-//! - a *shot*: a march from the rod's end with a random wrench. Newton's method from there costs a fifth, and gives up early;
+//! - a *shape*: the rod bent and twisted at random between its supports. Newton's method on all frames at once wanders from there until it comes upon
+//!   an equilibrium, stable or not; damped, by multiple shooting, it goes to what is near or soon gives up, and costs a fifth;
+//! - a *shot*: a march from the rod's end with a random wrench, and multiple shooting from what it makes;
 //! - a shot from about the end of an equilibrium that is known, the more often the less its energy: its neighbours, most often those of the next
 //!   Morse index, have wrenches of its kind.
 
@@ -19,11 +19,11 @@ use core::f64::consts::{PI, TAU};
 /// Twist classes, to either side.
 const TWIST_CLASSES: i32 = 4;
 /// After so many starts in a row that brought nothing new, and this part of all, it is enough.
-const MANY: usize = 1500;
+const MANY: usize = 4000;
 const PART: f64 = 0.25;
 /// How large bends, twists (rad), and forces (square roots, over `EI/L²`) are at random, and by which part of itself a known wrench is changed.
 const BENDS: [f64; 2] = [0.5, 10.0];
-const TWISTS: [f64; 2] = [1.0, 20.0];
+const TWISTS: [f64; 2] = [0.5, 40.0];
 const FORCES: [f64; 2] = [0.5, 8.0];
 const CHANGES: [f64; 2] = [0.02, 0.7];
 
@@ -40,9 +40,13 @@ impl Seeker<'_> {
         let can_shoot = self.problem.between.is_empty();
         let (mut last, mut known) = (0, self.found.len());
         for start in 0..starts {
-            match start % 3 {
-                1 if can_shoot => self.shoot(),
-                2 if can_shoot && !self.found.is_empty() => self.shoot_from_known(),
+            match start % 6 {
+                1 | 4 if can_shoot => self.shoot(),
+                2 | 5 if can_shoot && !self.found.is_empty() => self.shoot_from_known(),
+                3 => {
+                    self.lay_out_at_random();
+                    self.nearest_by_shooting();
+                }
                 _ => {
                     self.lay_out_at_random();
                     self.nearest();
@@ -54,6 +58,13 @@ impl Seeker<'_> {
             if start - last > MANY && (start - last) as f64 > PART * start as f64 {
                 break;
             }
+        }
+    }
+
+    /// Shoots from about what is known, for what only these elements show.
+    pub fn shoot_some_more(&mut self, times: usize) {
+        if self.problem.between.is_empty() && !self.found.is_empty() {
+            (0..times).for_each(|_| self.shoot_from_known());
         }
     }
 
@@ -75,18 +86,13 @@ impl Seeker<'_> {
         low * (high / low).powf(self.random.f64())
     }
 
-    /// A twist, to either side, rad.
-    fn twist(&mut self) -> f64 {
-        let twist = self.between(TWISTS);
-        if self.random.bool() { twist } else { -twist }
-    }
-
     /// Bends and twists that change slowly along the rod, up to a few turns. Gives those at the end, 1/m.
     fn lay_out_at_random(&mut self) -> Vec3 {
         let length = self.problem.rod.length();
         let size = self.between(BENDS) / length;
         let [even, odd, twice] = [(); 3].map(|()| self.vector(size));
-        let twist = Vec3::Z * (self.twist() / length);
+        let twist = self.between(TWISTS) / length;
+        let twist = Vec3::Z * self.vector(twist).z;
         let bend = |s: f64| even + odd * (PI * s).cos() + twice * (TAU * s).cos() + twist;
         lay_out(self.problem, bend, &mut self.workspace.record);
         bend(1.0)
