@@ -17,7 +17,7 @@ use crate::math::{Pose, Quat, Strain, Vec3, Wrench};
 use core::f64::consts::{PI, TAU};
 
 /// Twist classes, to either side.
-const TWIST_CLASSES: i32 = 4;
+const TWIST_CLASSES: i32 = 6;
 /// After so many starts in a row that brought nothing new, and this part of all, it is enough.
 const MANY: usize = 4000;
 const PART: f64 = 0.25;
