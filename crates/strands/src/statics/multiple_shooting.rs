@@ -21,6 +21,8 @@ use super::solution::{Guess, Method, Settings, SolveReport};
 use crate::math::larger;
 use crate::rod::Scale;
 
+/// The longest segment, over the rod, where the state is far from a solution.
+const LONGEST_FROM_AFAR: f64 = 0.25;
 /// The largest turn of a joint in one step, rad.
 const LARGEST_TURN: f64 = 1.0;
 /// A step that has to be damped below this has failed.
@@ -59,6 +61,16 @@ pub(crate) fn from_guess(
     put_guess(guess, problem, workspace, report);
     let outcome = newton(problem, settings, 1.0, workspace, report);
     found(problem, outcome, workspace)
+}
+
+/// Searches for the equilibrium nearest to the state in the workspace, stable or not; soon given up where none is near.
+pub(crate) fn nearest(
+    problem: &Problem,
+    settings: &Settings,
+    workspace: &mut Workspace,
+    report: &mut SolveReport,
+) -> Outcome {
+    newton(problem, settings, LONGEST_FROM_AFAR, workspace, report)
 }
 
 /// What is left of a step after it was made.

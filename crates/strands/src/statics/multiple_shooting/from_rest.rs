@@ -9,13 +9,12 @@ use super::super::problem::Problem;
 use super::super::shooting::{Inverse, Outcome, Search, Workspace};
 use super::super::solution::{Method, Settings, SolveReport};
 use super::super::stability::morse_index;
-use super::newton;
+use super::{LONGEST_FROM_AFAR, newton};
 use crate::math::{Vec3, Wrench};
 use crate::rod::Kinematics;
 
-/// The longest segment, over the rod: where the state is far from a solution, frames in between lead to it.
+/// The longest segment, over the rod: from rest frames in between lead to a solution.
 const LONGEST_FROM_REST: f64 = 0.1;
-const LONGEST_FROM_AFAR: f64 = 0.25;
 
 /// The axes, in the rod's own, about which it is bent where it is longer than its ends are apart.
 const SIDES: [Vec3; 4] = [

@@ -13,7 +13,7 @@ fn a_column_beyond_two_critical_loads_has_five_equilibria() {
     let load = PointLoad { at: 0.8, wrench: Wrench::new(Vec3::ZERO, down), frame: Frame::World };
     let loads = NodalLoads::none(&rod).with_point(&rod, &load).unwrap();
     let problem = Problem { loads, ..Problem::cantilever(rod) };
-    let settings = SearchSettings { starts: 80, paths: 40, ..SearchSettings::default() };
+    let settings = SearchSettings { starts: 200, paths: 20, ..SearchSettings::default() };
     let found = equilibria(&problem, &settings, &mut Workspace::default()).unwrap();
     let indices: Vec<_> = found.iter().map(|solution| solution.report.morse_index).collect();
     assert_eq!(indices, [0, 0, 1, 1, 2].map(Some));
@@ -40,7 +40,7 @@ fn twisting_a_straight_rod_once_round_leads_to_other_twist_classes() {
     let base = rod.description().base;
     let end = base.compose(&Pose { rotation: crate::math::Mat3::IDENTITY, position: Vec3::Z * 0.72 });
     let problem = Problem { end: Support::clamped(end), ..Problem::cantilever(rod) };
-    let settings = SearchSettings { starts: 60, paths: 30, ..SearchSettings::default() };
+    let settings = SearchSettings { starts: 200, paths: 20, ..SearchSettings::default() };
     let found = equilibria(&problem, &settings, &mut Workspace::default()).unwrap();
     let stable: Vec<f64> = found
         .iter()
