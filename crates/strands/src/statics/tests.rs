@@ -10,6 +10,7 @@ mod meshes;
 mod multiple_shooting;
 mod schemes;
 mod search;
+mod stability;
 mod supports;
 
 fn description(kinematics: Kinematics, rest: RestShape) -> RodDescription {

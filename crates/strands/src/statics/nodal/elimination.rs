@@ -1,10 +1,9 @@
 //! The elimination of the nodal system: node by node from the start to the end, each a block of six, whose pivots give the inertia.
 
+use super::second_variation::TURNING;
 use super::{Hold, Link, Nodal, Row};
 use crate::math::{Kernel, Mat3, Mat6, Real, Vec3, Vec6, Wrench};
 
-/// The resistance of a turning node, over that of a shifted one and the length squared.
-const TURNING: f64 = 0.02;
 /// A pivot below this part of the largest entry is none.
 const SMALLEST_PIVOT: f64 = 1e-15;
 
