@@ -4,6 +4,7 @@
 //! lanes, and because the tangent of the SE(3) exponential and its derivatives are the heart of the rod.
 
 mod lanes;
+mod ldl;
 mod mat3;
 mod mat6;
 #[cfg(target_arch = "x86_64")]
@@ -18,6 +19,7 @@ mod vec6;
 mod vector;
 
 pub use lanes::Lanes;
+pub(crate) use ldl::{Ldl, ldl};
 pub use mat3::Mat3;
 pub use mat6::{Lu, Mat6, lu};
 #[cfg(target_arch = "x86_64")]

@@ -217,3 +217,33 @@ mod packed_vectors {
         }
     }
 }
+
+#[test]
+fn a_symmetric_matrix_of_any_signs_is_solved_and_its_negative_eigenvalues_are_counted() {
+    let mut rng = fastrand::Rng::with_seed(7);
+    for trial in 0..200 {
+        // Bᵀ D B has the signs of D (Sylvester). Zeros on the diagonal ask for pairs.
+        let negative = trial % 8;
+        let b: [[f64; 7]; 7] = core::array::from_fn(|_| core::array::from_fn(|_| rng.f64() - 0.5));
+        let d: [f64; 7] = core::array::from_fn(|i| {
+            10_f64.powf(8.0 * rng.f64() - 4.0) * if i < negative { -1.0 } else { 1.0 }
+        });
+        let a: [[f64; 7]; 7] = core::array::from_fn(|i| {
+            core::array::from_fn(|j| (0..7).map(|k| b[k][i] * d[k] * b[k][j]).sum())
+        });
+        let x: [f64; 7] = core::array::from_fn(|_| rng.f64() - 0.5);
+        let rhs: [f64; 7] = core::array::from_fn(|i| (0..7).map(|j| a[i][j] * x[j]).sum());
+        let factors = ldl(a).unwrap();
+        assert_eq!(factors.negative(), negative, "{trial}");
+        let found = factors.solve(&rhs);
+        let size = a.iter().flatten().fold(0.0, |max: f64, x| max.max(x.abs()));
+        for i in 0..7 {
+            let back: f64 = (0..7).map(|j| a[i][j] * found[j]).sum();
+            let most = found.iter().fold(1.0, |max: f64, x| max.max(x.abs()));
+            assert!((back - rhs[i]).abs() < 1e-13 * size * most, "{trial}: {:e}", back - rhs[i]);
+        }
+    }
+    let saddle = ldl([[0.0, 0.0, 1.0], [0.0, 2.0, 0.0], [1.0, 0.0, 0.0]]).unwrap();
+    assert_eq!((saddle.negative(), saddle.solve(&[1.0, 2.0, 3.0])), (1, [3.0, 1.0, 1.0]));
+    assert!(ldl([[1.0, 1.0], [1.0, 1.0]]).is_none());
+}

@@ -13,7 +13,7 @@ use super::nodal::Nodal;
 use super::problem::Problem;
 use super::shooting::{Outcome, Workspace};
 use super::solution::{Method, Settings, Solution, SolveFailure, SolveReport};
-use super::stability::{RIGID_COMPLIANCE, morse_index};
+use super::stability::{morse_index, rigid_compliance, strength};
 use super::{fit, solution, solve};
 use crate::math::{SimdLevel, Vec6, Wrench};
 use thiserror::Error;
@@ -338,7 +338,7 @@ impl Follower<'_> {
         let mut nodal = ahead;
         let mut report = SolveReport { method: Method::Equilibrium, path_steps: 1, ..SolveReport::default() };
         loop {
-            let lent = RIGID_COMPLIANCE;
+            let lent = rigid_compliance(strength(&problem, &record));
             let distance = nodal.linearise(&problem, level, lent, &mut record);
             let residual = distance.map_or(f64::NAN, |distance| distance.residual());
             report.residual = residual;
@@ -420,7 +420,7 @@ impl Follower<'_> {
         finish(&problem, self.workspace.simd, &mut record);
         let level = self.workspace.simd;
         let mut nodal = Nodal::default();
-        let lent = RIGID_COMPLIANCE;
+        let lent = rigid_compliance(strength(&problem, &record));
         nodal.linearise(&problem, level, lent, &mut record).ok_or("an element's law has no solution")?;
         self.differentiate(at, &problem, lent, level, &record, &mut nodal)?;
         let negative = nodal.solve(level, 0.0).ok_or("the system is singular")?;

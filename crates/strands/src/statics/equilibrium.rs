@@ -7,11 +7,11 @@
 
 use super::boundary::{EndState, borne, meet, renormalised};
 use super::march::{Record, Section, march, turned};
-use super::nodal::{Distance, Nodal, take_strains};
+use super::nodal::{Distance, take_strains};
 use super::problem::{Problem, Stretch, Support};
 use super::shooting::{Outcome, Search, Workspace};
 use super::solution::{Guess, Method, Scheme, Settings, Solution, SolveReport};
-use super::stability::{NEUTRAL, strength};
+use super::stability::{clear_of_round_off, has_potential, strength, way_down};
 use crate::element;
 use crate::math::{Mat3, Pose, SimdLevel, Strain, Vec3, Vec6, Wrench};
 use crate::rod::Order;
@@ -59,10 +59,12 @@ const ROUND_OFF: f64 = 1e-12;
 const SMALL_MOTION: f64 = 0.1;
 /// More drag than this stops everything.
 const MOST_DRAG: f64 = 1e15;
-/// The drag that just holds an unstable rod is found to this power of a half.
-const HALVINGS_TO_THE_MODE: usize = 6;
+/// The drag against which a rod leaves an unstable equilibrium, over what would hold it there.
+const HARDLY_HELD: f64 = 1.1;
 /// Drag below this is left away: a shift by a tenth of the length would meet less force than a hair's weight.
 const LEAST_DRAG: f64 = 1e-3;
+/// What is left of it, over the [`strength`], so that a rod that is free to turn as a whole stays where it is.
+const HARDLY_ANY: f64 = 4e-5;
 
 /// Searches from the rod laid out between its supports by its rest shape; where that is too taut or too heavy for the way there to be smooth,
 /// from under less load and with the supports nearer to each other, by degrees.
@@ -175,6 +177,7 @@ impl Mild {
 }
 
 /// Walks from the milder problem, searched for from the rod laid out, to the hard one, each step from the state that the one before has left.
+/// Where a step fails for good, that state is left: what the rod bears there is true, and what a failed search leaves behind may be anything.
 pub(crate) fn by_degrees(
     problem: &Problem,
     mild: &Mild,
@@ -189,6 +192,9 @@ pub(crate) fn by_degrees(
     let mut family = problem.clone();
     mild.set(problem, 0.0, &mut family);
     let mut outcome = laid_out(&family, workspace, report);
+    if outcome != Outcome::Converged {
+        return outcome;
+    }
     let (mut at, mut step) = (0.0, 0.25);
     let mut reached = workspace.record.clone();
     while outcome == Outcome::Converged && at < 1.0 {
@@ -199,9 +205,11 @@ pub(crate) fn by_degrees(
         if outcome == Outcome::Converged {
             (at, step) = (next, 1.5 * step);
             reached.clone_from(&workspace.record);
-        } else if step > 1e-3 {
+            continue;
+        }
+        workspace.record.clone_from(&reached);
+        if step > 1e-3 {
             step *= 0.4;
-            workspace.record.clone_from(&reached);
             outcome = Outcome::Converged;
         }
     }
@@ -432,12 +440,13 @@ fn relax(
     report: &mut SolveReport,
 ) -> Outcome {
     report.method = Method::Equilibrium;
-    let Workspace { record, nodal, simd, .. } = workspace;
+    let Workspace { record, nodal, variation, simd, .. } = workspace;
     let simd = *simd;
     // Where the loads are larger than what bends the rod, forces are of their size.
     let strength = strength(problem, record);
     let lend = plan.lent / strength;
     let (mut drag, mut lent) = (plan.drag * strength, lend * MOST_SLACK);
+    let potential = has_potential(problem);
     let mut last = f64::INFINITY;
     for _ in 0..plan.steps {
         if note(nodal.linearise(problem, simd, lent, record), report).is_none() {
@@ -445,31 +454,38 @@ fn relax(
         }
         let residual = report.residual;
         if residual <= settings.tolerance {
-            // One Newton step more costs little and takes what is left down to round-off. It is against hardly any drag, and so shows whether
-            // the rod rests only because nothing pushes it off a ridge.
-            let stable = nodal.solve(simd, NEUTRAL * strength);
+            // It may rest only because nothing pushes it off a ridge.
+            let clear = clear_of_round_off(nodal, strength);
             report.factorisations += 1;
-            if stable.is_none_or(|negative| negative == 0) {
-                if stable.is_some() && nodal.step_size() <= plan.stride {
+            let sure = nodal.solve(simd, if potential { -clear } else { clear }) == Some(0);
+            let down = if sure { None } else { way_down(problem, simd, nodal, variation, record) };
+            let Some(down) = down else {
+                // One Newton step more costs little and takes what is left down to round-off.
+                let solved = sure || {
+                    report.factorisations += 1;
+                    nodal.solve(simd, HARDLY_ANY * strength) == Some(0)
+                };
+                if solved && nodal.step_size() <= plan.stride {
                     nodal.take(problem, simd, 1.0, record);
                 }
                 finish(problem, simd, record);
                 return Outcome::Converged;
-            }
-            let Some(enough) = push_off(simd, nodal, report) else {
-                return Outcome::Singular;
             };
-            drag = enough;
-            nodal.take(problem, simd, plan.stride / nodal.step_size(), record);
+            drag = (-HARDLY_HELD * down.slope).max(SOME_DRAG);
+            nodal.step_along(record, &down.motion, plan.stride);
+            nodal.take(problem, simd, 1.0, record);
             last = f64::INFINITY;
             continue;
         }
         lent = (lend * residual.min(MOST_SLACK)).max(least_lent(problem, strength));
+        let clear = clear_of_round_off(nodal, strength);
         loop {
             report.factorisations += 1;
             match nodal.solve(simd, drag) {
                 Some(0) => break,
                 _ if drag > MOST_DRAG => return Outcome::Stalled,
+                // It may be round-off.
+                _ if drag < clear => drag = clear,
                 _ => drag = (drag * MORE_DRAG).max(SOME_DRAG * strength),
             }
         }
@@ -488,7 +504,7 @@ fn relax(
             0.3 * (residual / last).clamp(0.1, 1.0) * drag
         };
         if drag < LEAST_DRAG * strength {
-            drag = NEUTRAL * strength;
+            drag = HARDLY_ANY * strength;
         }
         last = residual;
     }
@@ -498,33 +514,6 @@ fn relax(
 /// The least that is lent to all elements together.
 fn least_lent(problem: &Problem, strength: f64) -> f64 {
     (LEAST_LENT * problem.rod.elements() as f64).max(STEADY_LENT / strength)
-}
-
-/// Finds the way off an unstable equilibrium: the step that a small load makes against hardly more drag than holds the rod there, which is
-/// nearly along its most unstable mode. Gives that drag.
-fn push_off(simd: SimdLevel, nodal: &mut Nodal, report: &mut SolveReport) -> Option<f64> {
-    nodal.load_askew();
-    let mut holds = |drag: f64| {
-        report.factorisations += 1;
-        nodal.solve(simd, drag) == Some(0)
-    };
-    let mut enough = SOME_DRAG;
-    while !holds(enough) {
-        enough *= MORE_DRAG;
-        if enough > MOST_DRAG {
-            return None;
-        }
-    }
-    let mut too_little = enough / MORE_DRAG;
-    for _ in 0..HALVINGS_TO_THE_MODE {
-        let between = 0.5 * (enough + too_little);
-        if holds(between) {
-            enough = between;
-        } else {
-            too_little = between;
-        }
-    }
-    holds(enough).then_some(enough)
 }
 
 /// Balances the nodes, and gives the elements the strains that belong to what they carry, so that what is not free is as it must be to the

@@ -34,6 +34,7 @@ pub use solution::{
     Energy, FailureReason, Guess, Jacobian, Method, Reaction, Scheme, Settings, Solution, SolveFailure,
     SolveReport,
 };
+pub use stability::{UnstableMode, unstable_mode};
 
 use crate::math::{Pose, Vec3, Vec6};
 use crate::rod::{Kinematics, Order};

@@ -15,8 +15,10 @@
 //! All is seen from fixed axes about the rod's start, in which lengths, forces and moments are numbers of order one.
 
 mod elimination;
+mod second_variation;
 
 use elimination::{Block, Eliminate, Inertia, Square, pair, parts};
+pub(crate) use second_variation::SecondVariation;
 
 use super::boundary::{displacements, displacements_slope, meet};
 use super::march::Record;
@@ -30,6 +32,9 @@ use crate::rod::{Order, Rod};
 /// How many elements are linearised side by side.
 const BATCH: usize = 8;
 type Side = Vec3<Lanes<BATCH>>;
+/// The round-off of all pivots together, over that of the largest entry of a stiffness times the number of elements, with room: columns askew to
+/// the axes, which are the worst, have a fourth of it.
+const ROUND_OFF: f64 = 16.0;
 
 /// An element, linearised.
 #[derive(Clone, Copy, Debug)]
@@ -259,15 +264,11 @@ impl Nodal {
         (vanished == 0.0).then_some(negative as usize)
     }
 
-    /// Adds to what acts a load of size one that has no symmetry, forces and moments, growing along the rod.
-    pub fn load_askew(&mut self) {
-        let n = self.loads.len() as f64;
-        for (i, (load, at)) in self.loads.iter_mut().zip(&self.places).enumerate() {
-            let size = (1.0 + i as f64 / n) / n;
-            let force = Vec3::new(0.61, 0.47, 0.53) * size;
-            load.linear += force;
-            load.angular += at.cross(force) + Vec3::new(-0.53, 0.41, 0.37) * size;
-        }
+    /// How far, as a drag, round-off may move the eigenvalues of the system that is solved (over `EI/L³`).
+    pub fn round_off(&self) -> f64 {
+        let entries = self.links.iter().flat_map(|link| &link.stiffness).flatten();
+        let stiffest = entries.fold(0.0, |max: f64, entry| max.max(entry.abs()));
+        ROUND_OFF * f64::EPSILON * stiffest * self.links.len() as f64
     }
 
     /// The largest turn (rad) and shift (over the length) of a node in the step.
@@ -276,6 +277,20 @@ impl Nodal {
             larger(step.angular.norm(), 2.0 * (step.linear + step.angular.cross(*at)).norm())
         };
         self.steps.iter().zip(&self.places).map(size).fold(0.0, larger)
+    }
+
+    /// Makes the step one of the given size along a motion of the nodes, each in its own frame, and what takes up the slack.
+    pub fn step_along(&mut self, state: &Record, motion: &[Vec6], size: f64) {
+        self.steps.clear();
+        self.steps.extend(
+            state
+                .poses
+                .iter()
+                .zip(motion)
+                .map(|(pose, motion)| self.axes.frame(pose).adjoint_matrix().mul_vec(*motion)),
+        );
+        let part = size / self.step_size();
+        self.steps.iter_mut().for_each(|step| *step = *step * part);
     }
 
     /// Makes the step the answer of the rod, as it was when the system was last solved, to a motion of its held end (in its own axes, as a

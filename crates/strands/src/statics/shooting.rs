@@ -6,7 +6,7 @@
 use super::boundary::{EndState, residual, residual_slope, unknown_scale};
 use super::march::{Record, Section, march, march_lanes};
 use super::multiple_shooting::MultipleShooting;
-use super::nodal::Nodal;
+use super::nodal::{Nodal, SecondVariation};
 use super::problem::Problem;
 use super::solution::{Guess, Jacobian, Scheme, Settings, SolveReport};
 use super::variation::vary;
@@ -26,6 +26,7 @@ pub struct Workspace {
     pub(crate) record: Record,
     trial: Record,
     pub(crate) nodal: Nodal,
+    pub(crate) variation: SecondVariation,
     pub(crate) multiple: MultipleShooting,
     /// The vector instructions that the kernels use.
     pub simd: SimdLevel,
@@ -37,6 +38,7 @@ impl Default for Workspace {
             record: Record::default(),
             trial: Record::default(),
             nodal: Nodal::default(),
+            variation: SecondVariation::default(),
             multiple: MultipleShooting::default(),
             simd: SimdLevel::detect(),
         }

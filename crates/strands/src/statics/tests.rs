@@ -11,6 +11,7 @@ mod multiple_shooting;
 mod pulls;
 mod schemes;
 mod search;
+mod stability;
 mod supports;
 
 fn description(kinematics: Kinematics, rest: RestShape) -> RodDescription {

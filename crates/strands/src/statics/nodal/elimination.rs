@@ -2,11 +2,10 @@
 //!
 //! Written for one rod or several side by side.
 
+use super::second_variation::TURNING;
 use super::{Hold, Link, Nodal};
 use crate::math::{Kernel, Mat3, Real, Vec3, Vec6, Vector};
 
-/// The resistance of a turning node, over that of a shifted one and the length squared.
-const TURNING: f64 = 0.02;
 /// A pivot below this part of its block's diagonal is none.
 const SMALLEST_PIVOT: f64 = 1e-15;
 
