@@ -83,7 +83,7 @@ const CLOSE_ENOUGH: f64 = 2.5e-4;
 /// the stiffness is infinite, between two modes, and so far that the rod answers in proportion.
 const BESIDE: [f64; 6] = [-3e-3, -2e-3, -1e-3, 1e-3, 2e-3, 3e-3];
 /// The disturbing force, over `EI/L²`: large beside round-off, and so small that the rod answers in proportion.
-const DISTURBANCE: f64 = 1e-9;
+const DISTURBANCE: f64 = 3e-10;
 
 impl Branch {
     /// The load from which on the branch is followed.
