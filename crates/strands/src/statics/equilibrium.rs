@@ -63,6 +63,8 @@ const MOST_DRAG: f64 = 1e15;
 const HARDLY_HELD: f64 = 1.1;
 /// Drag below this is left away: a shift by a tenth of the length would meet less force than a hair's weight.
 const LEAST_DRAG: f64 = 1e-3;
+/// What is left of it, over the [`strength`], so that a rod that is free to turn as a whole stays where it is.
+const HARDLY_ANY: f64 = 4e-5;
 
 /// Searches from the rod laid out between its supports by its rest shape; where that is too taut or too heavy for the way there to be smooth,
 /// from under less load and with the supports nearer to each other, by degrees.
@@ -463,7 +465,7 @@ fn relax(
             let Some(down) = down else {
                 // One Newton step more costs little and takes what is left down to round-off.
                 report.factorisations += 1;
-                if nodal.solve(simd, clear).is_some() && nodal.step_size() <= plan.stride {
+                if nodal.solve(simd, HARDLY_ANY * strength) == Some(0) && nodal.step_size() <= plan.stride {
                     nodal.take(problem, 1.0, record);
                 }
                 finish(problem, record);
@@ -476,11 +478,14 @@ fn relax(
             continue;
         }
         lent = (lend * residual.min(MOST_SLACK)).max(least_lent(problem, strength));
+        let clear = clear_of_round_off(nodal, strength);
         loop {
             report.factorisations += 1;
             match nodal.solve(simd, drag) {
                 Some(0) => break,
                 _ if drag > MOST_DRAG => return Outcome::Stalled,
+                // It may be round-off.
+                _ if drag < clear => drag = clear,
                 _ => drag = (drag * MORE_DRAG).max(SOME_DRAG * strength),
             }
         }
@@ -499,7 +504,7 @@ fn relax(
             0.3 * (residual / last).clamp(0.1, 1.0) * drag
         };
         if drag < LEAST_DRAG * strength {
-            drag = clear_of_round_off(nodal, strength);
+            drag = HARDLY_ANY * strength;
         }
         last = residual;
     }
