@@ -19,6 +19,7 @@ mod second_variation;
 
 use elimination::{Block, Eliminate};
 pub(crate) use second_variation::SecondVariation;
+use second_variation::TURNING;
 
 use super::boundary::{displacements, displacements_slope, meet};
 use super::march::Record;
@@ -293,6 +294,17 @@ impl Nodal {
         let entries = self.links.iter().flat_map(|link| &link.stiffness).flat_map(|row| &row.0[..6]);
         let stiffest = entries.fold(0.0, |max: f64, entry| max.max(entry.abs()));
         ROUND_OFF * f64::EPSILON * stiffest * self.links.len() as f64
+    }
+
+    /// How stiff the rod is along the step (over `EI/L³`), by what acts on it, with the drag against which it was solved for.
+    pub fn stiffness_along_step(&self) -> f64 {
+        let (mut work, mut size) = (0.0, 0.0);
+        for (i, step) in self.steps.iter().enumerate() {
+            let motion = self.motion(i, step);
+            work += step.dot(self.acting(i));
+            size += TURNING * motion.angular.dot(motion.angular) + motion.linear.dot(motion.linear);
+        }
+        self.links.len() as f64 * work / size
     }
 
     /// The largest turn (rad) and shift (over the length) of a node in the step.
