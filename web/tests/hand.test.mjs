@@ -2,7 +2,7 @@
 
 import assert from 'node:assert/strict'
 import { after, before, test } from 'node:test'
-import { badge, changes, done, hand, needle, openPage, openScene, out, sharedPage, start, text, type, until, value } from './browser.mjs'
+import { badge, changes, done, hand, needle, openPage, openScene, openText, out, sharedPage, start, text, type, until, value } from './browser.mjs'
 
 let context
 const fresh = sharedPage(() => context)
@@ -153,6 +153,48 @@ test('where no equilibrium is found out of reach, the failure is what the badge 
   assert.deepEqual(await judged('failed', false), ['failed', 'failed, out of reach by 200.0 mm'])
   // While the thread is on its way it is known how far, and not how it ends.
   assert.deepEqual(await judged('failed', true), ['away', 'out of reach by 200.0 mm'])
+})
+
+const ARCH = `
+format = 1
+name = "arch"
+
+[rods.strip]
+length = 0.3
+elements = 100
+kinematics = "kirchhoff"
+stiffness = { bending = [1e-4, 1e-2], torsion = 1e-2 }
+supports = [
+    { at = "start", fix = ["position", "orientation"] },
+    { at = "end", fix = ["position", "orientation"], position = [0.0, 0.0, 0.28] },
+]
+`
+
+test('an arch whose end is turned by typed angles snaps over, which a notice says for a while, and stays stable', async () => {
+  const { page, complaints } = await fresh()
+  await openText(page, 'arch', ARCH)
+  await page.locator('#mode').selectOption('pose')
+  await badge(page, 'stable')
+  const shown = () => page.locator('#snap').evaluate((notice) => notice.classList.contains('shown'))
+  const turns = async (sign) => {
+    for (let angle = 0; angle <= 112; angle += 4) {
+      await type(page, 'turn-x', sign * angle)
+      await done(page)
+      await badge(page, 'stable')
+      if (await shown()) return angle
+    }
+    return null
+  }
+  assert.equal(await text(page, 'snap'), '')
+  // Which way it is to be turned depends on the side that it has buckled to.
+  const angle = (await turns(1)) ?? (await turns(-1))
+  assert.ok(angle > 20, `snapped at ${angle}°`)
+  assert.equal(await text(page, 'snap'), 'The strand snapped to another equilibrium')
+  assert.equal(await text(page, 'badge'), 'stable')
+  await page.screenshot({ path: `${out}snapped.png` })
+  await until(page, () => document.getElementById('snap').textContent === '')
+  await badge(page, 'stable')
+  assert.deepEqual(complaints, [])
 })
 
 test('keys twist, move and turn the hand, show the gizmo, pause and frame', async () => {

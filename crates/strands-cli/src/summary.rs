@@ -5,7 +5,7 @@ use std::fmt::Write;
 use anstyle::{AnsiColor, Style};
 use strands::math::{Pose, Vec3};
 use strands::rod::{Rod, Scale};
-use strands::statics::{Problem, Solution};
+use strands::statics::{Problem, Solution, UnstableMode, Workspace, unstable_mode};
 use strands_scene::Model;
 
 use crate::drawing::{Drawing, draw};
@@ -100,6 +100,11 @@ fn rows(rod: &SolvedRod, problem: &Problem) -> Vec<(&'static str, String)> {
         rows.push(("", format!("force  {}", sized(each_settled(reaction.force, scale.force), "N"))));
         rows.push(("", format!("moment {}", sized(each_settled(reaction.moment, scale.moment), "N·m"))));
     }
+    if report.morse_index.is_some_and(|index| index > 0)
+        && let Some(mode) = unstable_mode(problem, solution, &mut Workspace::default())
+    {
+        rows.push(("falls", fall(&mode, problem)));
+    }
     // The elastic energy is of second order in the strain, and so is its round-off.
     let elastic = engineering(settled(solution.energy.elastic, scale.moment * ROUND_OFF), "J");
     let load = engineering(settled(solution.energy.load, scale.force * scale.length), "J");
@@ -116,6 +121,31 @@ fn rows(rod: &SolvedRod, problem: &Problem) -> Vec<(&'static str, String)> {
         ),
     ));
     rows
+}
+
+/// A mode that shifts no node by more than this part of what it turns one by, over the length, only turns.
+const HARDLY_SHIFTS: f64 = 1e-3;
+
+/// What a mode does, in words: where the rod moves most and which way, or, where it stays in place, where it turns most.
+fn fall(mode: &UnstableMode, problem: &Problem) -> String {
+    let places = problem.rod.mesh().nodes();
+    let most = |vectors: &[Vec3]| {
+        let largest = (0..vectors.len())
+            .fold(0, |best, i| if vectors[i].norm() > vectors[best].norm() { i } else { best });
+        (places[largest], vectors[largest])
+    };
+    let (shifts_at, shift) = most(&mode.displacement);
+    let (turns_at, turn) = most(&mode.rotation);
+    let length = problem.rod.length();
+    let (how, at, along) = if shift.norm() > HARDLY_SHIFTS * length * turn.norm() {
+        ("moves along", shifts_at, shift)
+    } else {
+        ("turns about", turns_at, turn)
+    };
+    let largest = along.to_array().into_iter().fold(0.0, |a: f64, b| if b.abs() > a.abs() { b } else { a });
+    let along = along * (1.0 / along.norm()).copysign(largest);
+    let [x, y, z] = along.to_array().map(|x| without_minus_zero(format!("{x:.2}")));
+    format!("{how} ±({x}, {y}, {z}), most at s = {}", engineering(at, "m"))
 }
 
 /// The largest lengths, moments and forces about a solved rod, its own stiffness among them.

@@ -215,3 +215,13 @@ fn completions_name_the_commands() {
         assert!(run.code == 0 && run.out.contains("solve"), "{shell}");
     }
 }
+
+#[test]
+fn elements_too_long_for_the_tension_are_told_of_and_as_many_as_advised_do() {
+    let taut = ["solve", "suture", "--set", "rods.thread.supports[1].position=[0.1, 0.0, 0.28]", "--set"];
+    let run = strands(&[taut.as_slice(), &["rods.thread.elements=40"]].concat());
+    assert_eq!(run.code, 2, "{}", run.out);
+    assert!(run.out.contains("shorter elements may bear less: use 160 or more"), "{}", run.out);
+    let run = strands(&[taut.as_slice(), &["rods.thread.elements=160"]].concat());
+    assert!(run.out.contains("stable equilibrium"), "{}", run.out);
+}

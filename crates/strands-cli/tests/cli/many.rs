@@ -22,9 +22,36 @@ fn all_lists_equilibria_by_energy() {
     assert_eq!(indices, [0, 0, 1, 1, 2]);
     assert!(all.windows(2).all(|pair| pair[0]["energy"].as_f64() <= pair[1]["energy"].as_f64()));
     assert_eq!(all[0]["rods"]["column"]["position"].as_array().unwrap().len(), 61);
-    let run = strands(&arguments);
+    for (one, index) in all.iter().zip(indices) {
+        let mode = &one["rods"]["column"]["unstable_mode"];
+        assert_eq!(mode.is_null(), index == 0);
+        if index > 0 {
+            assert!(mode["curvature"].as_f64().unwrap() < 0.0);
+            assert_eq!(mode["displacement"].as_array().unwrap().len(), 61);
+            let clamped = mode["rotation"][0].as_array().unwrap();
+            assert!(clamped.iter().all(|turn| turn.as_f64() == Some(0.0)), "{clamped:?}");
+        }
+    }
+    let file = folder("all").join("all.vtp");
+    let run = strands(&[arguments.as_slice(), &["-o", file.to_str().unwrap()]].concat());
     assert!(run.out.contains("5 equilibria found, 2 of them stable"), "{}", run.out);
     assert!(run.out.contains("unstable, Morse index 2"), "{}", run.out);
+    assert!(std::fs::read_to_string(&file).unwrap().contains("mode_displacement"));
+}
+
+#[test]
+fn an_unstable_equilibrium_is_told_how_it_falls() {
+    let run = strands(&[
+        "solve",
+        "column.toml",
+        "--set",
+        "rods.column.loads[0].force=[0,0,-0.3]",
+        "--set",
+        "solver.method=multiple_shooting",
+    ]);
+    assert!(run.out.contains("UNSTABLE equilibrium: one way to fall"), "{}", run.out);
+    // Its section is softest about x.
+    assert!(run.out.contains("moves along ±(0.00, 1.00, 0.00), most at s = 800.0 mm"), "{}", run.out);
 }
 
 #[test]

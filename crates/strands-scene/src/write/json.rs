@@ -5,6 +5,7 @@ use crate::model::Model;
 use serde::Serialize;
 use serde_json::{Map, Value, json as value};
 use std::fmt::Display;
+use strands::math::Vec3;
 use strands::statics::{Event, EventKind, Method, PathEnd, Solution, SolveReport};
 
 #[derive(Serialize)]
@@ -15,6 +16,15 @@ struct RodAnswer<'a> {
     strain: Vec<[f64; 6]>,
     stress: Vec<[f64; 6]>,
     reactions: Vec<ReactionAnswer>,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    unstable_mode: Option<ModeAnswer>,
+}
+
+#[derive(Serialize)]
+struct ModeAnswer {
+    curvature: f64,
+    rotation: Vec<[f64; 3]>,
+    displacement: Vec<[f64; 3]>,
 }
 
 #[derive(Serialize)]
@@ -28,7 +38,9 @@ struct ReactionAnswer {
 ///
 /// `iterations`, `energy` (elastic and of the loads, J) and `morse_index` are sums over the rods, `residual` is the largest;
 /// `morse_index` and `stable` are null where the loads have no potential. `method` is null where rods were solved in different ways. Reactions are those
-/// of the places that are held. `solve_seconds` is left out where it is not known.
+/// of the places that are held. `solve_seconds` is left out where it is not known. A rod in an unstable equilibrium has its `unstable_mode`: at the
+/// nodes the `rotation` (rotation vectors, rad) and `displacement` (m), world axes, in which it falls, the larger of turn and shift over length at
+/// most one, and the `curvature` of the energy along them (J, negative).
 pub fn json(model: &Model, solutions: &[(&str, &Solution)], solve_seconds: Option<f64>) -> String {
     let solved = Solved::all(model, solutions);
     let reports = || solved.iter().map(|solved| &solved.solution.report);
@@ -96,6 +108,12 @@ fn rod<'a>(solved: &Solved<'a>) -> RodAnswer<'a> {
     let reactions = reactions.iter().zip(held).filter(|(_, held)| *held).map(|(reaction, _)| {
         ReactionAnswer { s: reaction.s, force: reaction.force.to_array(), moment: reaction.moment.to_array() }
     });
+    let vectors = |vectors: Vec<Vec3>| vectors.into_iter().map(Vec3::to_array).collect();
+    let unstable_mode = solved.unstable_mode().map(|mode| ModeAnswer {
+        curvature: mode.curvature,
+        rotation: vectors(mode.rotation),
+        displacement: vectors(mode.displacement),
+    });
     RodAnswer {
         s: solved.s(),
         position: poses.iter().map(|pose| pose.position.to_array()).collect(),
@@ -103,6 +121,7 @@ fn rod<'a>(solved: &Solved<'a>) -> RodAnswer<'a> {
         strain: strain.iter().map(|strain| strain.to_array()).collect(),
         stress: stress.iter().map(|stress| stress.to_array()).collect(),
         reactions: reactions.collect(),
+        unstable_mode,
     }
 }
 

@@ -21,7 +21,7 @@ pub use svg::svg;
 pub use vtp::vtp;
 
 use crate::model::{Model, ModelRod};
-use strands::statics::Solution;
+use strands::statics::{Solution, UnstableMode, Workspace, unstable_mode};
 
 /// A solved rod.
 #[derive(Clone, Copy)]
@@ -48,6 +48,12 @@ impl<'a> Solved<'a> {
     /// The nodes' places, m.
     fn s(&self) -> &'a [f64] {
         self.rod.problem.rod.mesh().nodes()
+    }
+
+    /// The mode in which it falls, where it is unstable.
+    fn unstable_mode(&self) -> Option<UnstableMode> {
+        self.solution.report.morse_index.filter(|index| *index > 0)?;
+        unstable_mode(&self.rod.problem, self.solution, &mut Workspace::default())
     }
 
     /// The bending curvature `√(κ1² + κ2²)` at the nodes, 1/m, each the mean of its two elements.

@@ -3,11 +3,13 @@
 use super::Solved;
 use crate::model::Model;
 use std::fmt::Write;
-use strands::statics::Solution;
+use strands::math::Vec3;
+use strands::statics::{Solution, UnstableMode};
 
 /// The solutions as a `.vtp` file.
 ///
-/// Point data: `s` (m), directors `d1`, `d2`, `d3`, `radius` (half the larger extent of the section, m). Cell data: `rod` (its number),
+/// Point data: `s` (m), directors `d1`, `d2`, `d3`, `radius` (half the larger extent of the section, m), and, where an equilibrium is unstable,
+/// `mode_rotation` (rad) and `mode_displacement` (m) of the mode in which it falls, zero where it is stable. Cell data: `rod` (its number),
 /// `curvature_twist` (1/m), `stretch_shear`, `moment` (N·m) and `force` (N), each in body axes.
 pub fn vtp(model: &Model, solutions: &[(&str, &Solution)]) -> String {
     let solved = Solved::all(model, solutions);
@@ -35,6 +37,18 @@ pub fn vtp(model: &Model, solutions: &[(&str, &Solution)]) -> String {
         line(array("Float64", name, 3, nodes().flat_map(|((pose, _), _)| pose.rotation.cols[i].to_array())));
     }
     line(array("Float64", "radius", 1, nodes().map(|(_, half)| half[0].max(half[1]))));
+    let modes: Vec<_> = solved.iter().map(Solved::unstable_mode).collect();
+    if modes.iter().any(Option::is_some) {
+        let of_mode = |of: fn(&UnstableMode) -> &[Vec3]| {
+            let nodes = solved.iter().zip(&modes).flat_map(move |(rod, mode)| {
+                let vectors = mode.as_ref().map(of);
+                (0..rod.solution.poses.len()).map(move |i| vectors.map_or(Vec3::ZERO, |vectors| vectors[i]))
+            });
+            nodes.flat_map(Vec3::to_array)
+        };
+        line(array("Float64", "mode_rotation", 3, of_mode(|mode| &mode.rotation)));
+        line(array("Float64", "mode_displacement", 3, of_mode(|mode| &mode.displacement)));
+    }
     line("</PointData>\n<CellData>".into());
     let rods = solved.iter().enumerate().flat_map(|(i, rod)| rod.solution.strain.iter().map(move |_| i));
     line(array("Int64", "rod", 1, rods));

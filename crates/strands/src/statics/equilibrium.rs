@@ -59,6 +59,8 @@ const ROUND_OFF: f64 = 1e-12;
 const SMALL_MOTION: f64 = 0.1;
 /// More drag than this stops everything.
 const MOST_DRAG: f64 = 1e15;
+/// Where a rod is stiffer than a drag by more than this, a step against that is as good as Newton's.
+const MUCH_STIFFER: f64 = 100.0;
 /// The drag against which a rod leaves an unstable equilibrium, over what would hold it there.
 const HARDLY_HELD: f64 = 1.1;
 /// Drag below this is left away: a shift by a tenth of the length would meet less force than a hair's weight.
@@ -461,10 +463,9 @@ fn relax(
             let down = if sure { None } else { way_down(problem, simd, nodal, variation, record) };
             let Some(down) = down else {
                 // One Newton step more costs little and takes what is left down to round-off.
-                let solved = sure || {
-                    report.factorisations += 1;
-                    nodal.solve(simd, HARDLY_ANY * strength) == Some(0)
-                };
+                let newtons = sure && potential && nodal.stiffness_along_step() > MUCH_STIFFER * clear;
+                report.factorisations += usize::from(!newtons);
+                let solved = newtons || nodal.solve(simd, HARDLY_ANY * strength) == Some(0);
                 if solved && nodal.step_size() <= plan.stride {
                     nodal.take(problem, simd, 1.0, record);
                 }
@@ -478,15 +479,16 @@ fn relax(
             continue;
         }
         lent = (lend * residual.min(MOST_SLACK)).max(least_lent(problem, strength));
-        let clear = clear_of_round_off(nodal, strength);
         loop {
             report.factorisations += 1;
             match nodal.solve(simd, drag) {
                 Some(0) => break,
                 _ if drag > MOST_DRAG => return Outcome::Stalled,
-                // It may be round-off.
-                _ if drag < clear => drag = clear,
-                _ => drag = (drag * MORE_DRAG).max(SOME_DRAG * strength),
+                _ => {
+                    // It may be round-off.
+                    let clear = clear_of_round_off(nodal, strength);
+                    drag = if drag < clear { clear } else { (drag * MORE_DRAG).max(SOME_DRAG * strength) };
+                }
             }
         }
         report.iterations += 1;

@@ -368,12 +368,14 @@ fn too_coarse(problem: &Problem, workspace: &Workspace) -> Option<FailureReason>
         tension,
         bending_length,
         element_length: longest,
-        needed: needed as usize,
+        needed: (needed as usize).min(MOST_FINER * rod.elements()),
     })
 }
 
 /// More elements than this are not advised.
 const MOST_NEEDED: f64 = 1e5;
+/// Nor more times those that there are: the tension on long elements says little.
+const MOST_FINER: usize = 4;
 
 /// The failure of a problem that is not tried: the guess, or the rod at rest, with its residual.
 fn not_tried(

@@ -19,6 +19,7 @@ mod second_variation;
 
 use elimination::{Block, Eliminate, Inertia, Square, pair, parts};
 pub(crate) use second_variation::SecondVariation;
+use second_variation::TURNING;
 
 use super::boundary::{displacements, displacements_slope, meet};
 use super::march::Record;
@@ -266,9 +267,21 @@ impl Nodal {
 
     /// How far, as a drag, round-off may move the eigenvalues of the system that is solved (over `EI/L³`).
     pub fn round_off(&self) -> f64 {
-        let entries = self.links.iter().flat_map(|link| &link.stiffness).flatten();
-        let stiffest = entries.fold(0.0, |max: f64, entry| max.max(entry.abs()));
+        // The largest entry of a positive matrix lies on its diagonal.
+        let diagonal = |link: &Link<f64>| (0..6).fold(0.0, |max: f64, k| max.max(link.stiffness[k][k].abs()));
+        let stiffest = self.links.iter().fold(0.0, |max: f64, link| max.max(diagonal(link)));
         ROUND_OFF * f64::EPSILON * stiffest * self.links.len() as f64
+    }
+
+    /// How stiff the rod is along the step (over `EI/L³`), by what acts on it, with the drag against which it was solved for.
+    pub fn stiffness_along_step(&self) -> f64 {
+        let (mut work, mut size) = (0.0, 0.0);
+        for (i, step) in self.steps.iter().enumerate() {
+            let motion = self.motion(i, step);
+            work += step.dot(self.acting(i));
+            size += TURNING * motion.angular.dot(motion.angular) + motion.linear.dot(motion.linear);
+        }
+        self.links.len() as f64 * work / size
     }
 
     /// The largest turn (rad) and shift (over the length) of a node in the step.

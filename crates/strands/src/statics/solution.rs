@@ -236,17 +236,17 @@ pub enum FailureReason {
     },
     /// The rod is so taut that it bends over less than an element.
     #[error(
-        "no equilibrium found: under the tension that it came to, {tension:.3e} N, the rod bends over {bending_length:.3e} m, and its \
-         elements are up to {element_length:.3e} m long; use {needed} elements or more, or pull less"
+        "no equilibrium found: on its elements, up to {element_length:.3e} m long, the rod comes to a tension of {tension:.3e} N, under which it \
+         would bend over {bending_length:.3e} m; shorter elements may bear less: use {needed} or more, or pull less"
     )]
     TooCoarse {
-        /// The largest internal force, N.
+        /// The largest internal force of the last state that was an equilibrium on the way, N. Elements that are too long bear more than the rod.
         tension: f64,
         /// `√(EI/T)`, m.
         bending_length: f64,
         /// The longest element, m.
         element_length: f64,
-        /// As many elements as have half that bending length.
+        /// As many elements as have half that bending length, and no more than four times those that there are: with them the tension is another.
         needed: usize,
     },
     /// The supports leave the rod free to move as a whole, or the problem is singular there.

@@ -78,7 +78,7 @@ impl SecondVariation {
             add(*node, Mat6::from_rows(slope).scaled(-1.0));
         }
         for hold in &nodal.holds {
-            add(hold.node, held(hold, 1.0 / lent)?);
+            add(hold.node, hold.resistance(1.0 / lent)?);
         }
         Some(())
     }
@@ -246,15 +246,36 @@ fn symmetric(matrix: &Mat6) -> Mat6 {
     matrix.add(&matrix.transpose()).scaled(0.5)
 }
 
-/// The resistance of a hold: what comes from how its free displacements turn, and `stiff` against all others.
-fn held(hold: &Hold<f64>, stiff: f64) -> Option<Mat6> {
-    let free = &Mat6::from_rows(&hold.free);
-    let fixed = Mat6::diagonal(Vec6::from(hold.fixed));
-    // The free displacements of a motion: (BᵀB)⁻¹ Bᵀ.
-    let factors = lu::<6>(free.transpose().mul(free).add(&fixed).to_rows())?;
-    let columns = free.to_rows().map(|column| factors.solve(&column));
-    let part = Mat6::from_rows(&columns).transpose();
-    let rest = Mat6::IDENTITY.add(&free.mul(&part).scaled(-1.0));
-    let curved = part.transpose().mul(&Mat6::from_rows(&hold.curved)).mul(&part);
-    Some(curved.add(&rest.scaled(stiff)))
+impl Hold<f64> {
+    fn free(&self) -> Mat6 {
+        Mat6::from_rows(&self.free)
+    }
+
+    /// The free displacements, one a row, of a motion: `(BᵀB)⁻¹ Bᵀ`. `None` where they are not independent.
+    fn parts(&self) -> Option<Mat6> {
+        let (free, fixed) = (self.free(), Mat6::diagonal(Vec6::from(self.fixed)));
+        let factors = lu::<6>(free.transpose().mul(&free).add(&fixed).to_rows())?;
+        let columns = self.free.map(|column| factors.solve(&column));
+        Some(Mat6::from_rows(&columns).transpose())
+    }
+
+    /// Its resistance: what comes from how its free displacements turn, and `stiff` against all others.
+    fn resistance(&self, stiff: f64) -> Option<Mat6> {
+        let parts = self.parts()?;
+        let rest = Mat6::IDENTITY.add(&self.free().mul(&parts).scaled(-1.0));
+        let curved = Mat6::from_rows(&self.curved);
+        Some(parts.transpose().mul(&curved).mul(&parts).add(&rest.scaled(stiff)))
+    }
+}
+
+impl Nodal {
+    /// Takes from a motion of the nodes, each in its own frame, what the supports do not allow.
+    pub fn keep_to_holds(&self, state: &Record, motion: &mut [Vec6]) {
+        for hold in &self.holds {
+            let frame = self.axes.frame(&state.poses[hold.node]);
+            let step = frame.adjoint_matrix().mul_vec(motion[hold.node]);
+            let allowed = hold.parts().map_or(Vec6::ZERO, |parts| hold.free().mul_vec(parts.mul_vec(step)));
+            motion[hold.node] = frame.inverse().adjoint_matrix().mul_vec(allowed);
+        }
+    }
 }
