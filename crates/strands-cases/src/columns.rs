@@ -127,7 +127,8 @@ fn greenhill() -> CriticalCase {
         name: "greenhill-columns".into(),
         title: "The weight under which an upright column buckles".into(),
         source: "Greenhill, Proc. Camb. Phil. Soc. 4:65–73, 1881: zeros of a Bessel function",
-        tolerance: 1e-8,
+        // With nearly Euler's load on its top the column bears a 37th of that in weight, which has as many times the error.
+        tolerance: 5e-8,
         elements: 400,
         branches: branches.collect(),
         remark: None,
