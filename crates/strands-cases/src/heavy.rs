@@ -156,7 +156,7 @@ fn catenary() -> Case {
                 .held(0.0, start)
                 .held(length, Support::pinned(far)),
             start: Start::Cold,
-            answers: vec![Answer::stable(expected)],
+            answers: vec![Answer::new(expected)],
         }
     });
     Case {

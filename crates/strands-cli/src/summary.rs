@@ -179,7 +179,7 @@ fn verdict(solution: &Solution) -> (Style, &'static str) {
         ),
         None => (
             AnsiColor::Green.on_default().bold(),
-            "equilibrium; its stability is not known, since the loads have no potential",
+            "equilibrium; its stability is not known: the loads have no potential, or the elements are too long to tell",
         ),
     }
 }

@@ -153,8 +153,8 @@ pub struct SolveReport {
     pub factorisations: usize,
     /// Steps on the way from the last solution or from rest; 1 where the search converged at once.
     pub path_steps: usize,
-    /// How many ways there are to lower the energy. `None` where the loads have no potential (follower
-    /// loads) or the count does not apply.
+    /// How many ways there are to lower the energy. `None` where the loads have no potential (follower loads), and where elements are so long for
+    /// what they carry that a way down may be one element's and not the rod's.
     pub morse_index: Option<usize>,
 }
 

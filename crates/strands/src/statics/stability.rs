@@ -15,7 +15,8 @@ use super::shooting::Workspace;
 use super::solution::Solution;
 use crate::math::{Pose, SimdLevel, Vec3, Vec6, larger};
 
-/// What is lent to a rod's compliance against shifts for this purpose alone, over `L³/EI` and the root of the [`strength`].
+/// What is lent to a rod's compliance against shifts for this purpose alone, over `L³/EI` and the root of the [`strength`], and to its supports, over
+/// the strength.
 const RIGID_COMPLIANCE: f64 = 1e-7;
 /// By what is lent, over `L³/EI`, and the square of the strength, an eigenvalue may be too low: a column's is by `π²` times.
 const TOO_LOW: f64 = 10.0;
@@ -23,7 +24,7 @@ const TOO_LOW: f64 = 10.0;
 const NEUTRAL: f64 = 1e-6;
 
 /// The Morse index of the equilibrium recorded in the workspace. `None` where follower loads or dead moments act on what can move or turn, which
-/// have no potential, and where a pivot vanishes.
+/// have no potential, where a pivot vanishes, and where an element is so long for what it carries that a way down may be its own.
 pub(crate) fn morse_index(problem: &Problem, workspace: &mut Workspace) -> Option<usize> {
     if !has_potential(problem) {
         return None;
@@ -34,16 +35,24 @@ pub(crate) fn morse_index(problem: &Problem, workspace: &mut Workspace) -> Optio
     nodal.linearise(problem, *simd, lent, record)?;
     let clear = clear_of_round_off(nodal, strength).max(TOO_LOW * lent * strength * strength);
     let below = nodal.solve(*simd, -clear);
-    if below == Some(0) || below.is_some() && below == nodal.solve(*simd, clear) {
+    if below == Some(0) {
         return below;
     }
-    variation.take(problem, nodal, lent, record)?;
-    variation.factor(NEUTRAL * strength)
+    let sure = below.filter(|below| nodal.solve(*simd, clear) == Some(*below));
+    variation.take(problem, nodal, stiff(strength), record)?;
+    let index = sure.or_else(|| variation.factor(NEUTRAL * strength))?;
+    (index == 0 || variation.elements_resist()).then_some(index)
 }
 
 /// What is lent to a rod's compliance against shifts where its eigenvalues are wanted, over `L³/EI`.
 pub(crate) fn rigid_compliance(strength: f64) -> f64 {
     RIGID_COMPLIANCE / strength.sqrt()
+}
+
+/// How stiff (over `EI/L³`) the supports are in the second variation. Were they softer beside the square of what they bear, a free turn could use
+/// that they yield.
+fn stiff(strength: f64) -> f64 {
+    strength / RIGID_COMPLIANCE
 }
 
 /// The drag (over `EI/L³`) that round-off in the pivots of a linearised rod does not outweigh, nor a freedom to turn.
@@ -60,7 +69,7 @@ pub(crate) struct WayDown {
     pub motion: Vec<Vec6>,
 }
 
-/// The way down from the equilibrium recorded. `None` where there is none: that is stable.
+/// The way down from the equilibrium recorded. `None` where there is none, that is stable, and where it may be that of an element by itself.
 pub(crate) fn way_down(
     problem: &Problem,
     level: SimdLevel,
@@ -71,7 +80,10 @@ pub(crate) fn way_down(
     let strength = strength(problem, record);
     let lent = rigid_compliance(strength);
     nodal.linearise(problem, level, lent, record)?;
-    variation.take(problem, nodal, lent, record)?;
+    variation.take(problem, nodal, stiff(strength), record)?;
+    if !variation.elements_resist() {
+        return None;
+    }
     let (slope, motion) = variation.steepest(NEUTRAL * strength)?;
     Some(WayDown { slope, motion })
 }

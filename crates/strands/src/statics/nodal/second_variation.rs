@@ -12,7 +12,7 @@
 //!
 //! Each element is eliminated with its near node, twelve by twelve and with interchange, which leaves a resistance on its far node. By
 //! Sylvester's law the negative pivots are the ways down and one for each direction in which an element yields, or is as good as rigid. Only
-//! a support is lent what an inextensible rod is lent elsewhere: a spring there leaves neutral what is.
+//! a support yields, hardly noticeably: a spring there leaves neutral what is.
 
 use super::super::problem::Problem;
 use super::{Axes, Hold, Nodal, Record};
@@ -24,7 +24,7 @@ use crate::rod::{Order, Rod};
 pub(super) const TURNING: f64 = 0.02;
 
 /// What yields by less than this part of what yields most does not yield.
-const RIGID: f64 = 1e-9;
+const RIGID: f64 = 1e-12;
 
 /// The second variation at a state, and its factors against a drag.
 #[derive(Clone, Debug, Default)]
@@ -53,9 +53,9 @@ struct Node {
 }
 
 impl SecondVariation {
-    /// Takes the second variation where a rod was [linearised](Nodal::linearise), its supports yielding by `lent` (over `L³/EI`). `None` where
-    /// an element's law cannot be solved.
-    pub fn take(&mut self, problem: &Problem, nodal: &Nodal, lent: f64, state: &Record) -> Option<()> {
+    /// Takes the second variation where a rod was [linearised](Nodal::linearise), its supports as `stiff` (over `EI/L³`) as that. `None`
+    /// where an element's law cannot be solved.
+    pub fn take(&mut self, problem: &Problem, nodal: &Nodal, stiff: f64, state: &Record) -> Option<()> {
         let rod = &problem.rod;
         self.elements.clear();
         self.nodes.clear();
@@ -78,9 +78,15 @@ impl SecondVariation {
             add(*node, Mat6::from_rows(slope).scaled(-1.0));
         }
         for hold in &nodal.holds {
-            add(hold.node, hold.resistance(1.0 / lent)?);
+            add(hold.node, hold.resistance(stiff)?);
         }
         Some(())
+    }
+
+    /// Whether each element by itself resists all motions of one of its nodes. One that is too long for the force that it carries need not, and then
+    /// a way down may be its own and not the rod's.
+    pub fn elements_resist(&self) -> bool {
+        self.elements.iter().all(|element| element.positive == 6)
     }
 
     /// Factors the second variation and a drag (over `EI/L³`) times the measure of the motion. Gives how many ways lead down against that, or
