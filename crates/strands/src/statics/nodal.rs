@@ -462,8 +462,9 @@ impl Elements {
     #[inline(always)]
     fn gather(rod: &Rod, points: &[DiagonalPoint], axes: &Axes, state: &Record, first: usize) -> Self {
         let [mut compliance, mut rest, mut wrench] = [Vec6::<Side>::zero(); 3];
-        let mut near = Pose { rotation: Mat3 { cols: [Side::zero(); 3] }, position: Side::zero() };
-        let mut far = near;
+        let mut near = Mat3 { cols: [Side::zero(); 3] };
+        let mut far = Pose { rotation: near, position: Side::zero() };
+        let mut apart = Side::zero();
         for i in 0..BATCH {
             let e = (first + i).min(rod.elements() - 1);
             let point = &points[e];
@@ -471,10 +472,14 @@ impl Elements {
             compliance.linear.put(i, point.compliance.linear * (axes.force / axes.length));
             rest.put(i, axes.shift(point.rest));
             wrench.put(i, axes.wrench(state.wrenches[e]));
-            near.put(i, &axes.frame(&state.poses[e]));
-            far.put(i, &axes.frame(&state.poses[e + 1]));
+            let (a, b) = (&state.poses[e], &state.poses[e + 1]);
+            (0..3).for_each(|k| near.cols[k].put(i, a.rotation.cols[k]));
+            far.put(i, &axes.frame(b));
+            // Of the places as they are: round-off in others would be seen through the stiffness against stretching.
+            apart.put(i, (b.position - a.position) * (1.0 / axes.length));
         }
-        let relative = near.between(&far);
+        let relative =
+            Pose { rotation: near.transpose() * far.rotation, position: near.transpose_mul(apart) };
         let mut x = relative.log_of_small_turn();
         for i in 0..BATCH {
             if x.angular.x.0[i].is_nan() {
