@@ -388,11 +388,12 @@ impl<R: Real> Link<R> {
         frame: &Pose<Vec3<R>>,
     ) -> Wrench<Vec3<R>> {
         let apart = parts(far - near);
-        let force = self.stiffness.map(|row| {
-            (row[0] * apart[0] + row[1] * apart[1])
+        let mut force = [R::zero(); 6];
+        for (force, row) in force.iter_mut().zip(&self.stiffness) {
+            *force = (row[0] * apart[0] + row[1] * apart[1])
                 + (row[2] * apart[2] + row[3] * apart[3])
-                + (row[4] * apart[4] + row[5] * apart[5])
-        });
+                + (row[4] * apart[4] + row[5] * apart[5]);
+        }
         frame.inverse().carry_wrench((pair(force) + self.pull) * part)
     }
 }
@@ -546,11 +547,15 @@ impl Kernel for Linearise<'_> {
                 diagonal_resistance(compliance, rest, share, x, wrench, &far);
             let carried = far.carry_wrench(wrench);
             for i in 0..BATCH.min(n - first) {
-                let stiffness = core::array::from_fn(|r| {
-                    core::array::from_fn(|c| stiffness[r / 3][c / 3].cols[c % 3].lane(i)[r % 3])
-                });
+                let mut rows = [[0.0; 6]; 6];
+                for r in 0..6 {
+                    for c in 0..6 {
+                        let column = &stiffness[r / 3][c / 3].cols[c % 3];
+                        rows[r][c] = [&column.x, &column.y, &column.z][r % 3].0[i];
+                    }
+                }
                 worst = larger(worst, largest(&slack.lane(i).to_array()));
-                links.push(Link { stiffness, carried: carried.lane(i), pull: pull.lane(i) });
+                links.push(Link { stiffness: rows, carried: carried.lane(i), pull: pull.lane(i) });
             }
         }
         worst

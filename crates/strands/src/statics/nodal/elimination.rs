@@ -45,7 +45,10 @@ impl<R: Real> Kernel for Eliminate<'_, R> {
         let mut earlier = [[R::zero(); 8]; 6];
         let (mut holds, mut slopes) = (0, 0);
         for i in 0..=n {
-            let mut pivot: Square<R> = core::array::from_fn(|r| core::array::from_fn(|c| earlier[r][c]));
+            let mut pivot = [[R::zero(); 6]; 6];
+            for r in 0..6 {
+                pivot[r].copy_from_slice(&earlier[r][..6]);
+            }
             let mut right = [[R::zero(); 8]; 6];
             add_drag(&mut pivot, nodal.places[i], drag);
             let acting = parts(nodal.acting(i));
@@ -55,19 +58,27 @@ impl<R: Real> Kernel for Eliminate<'_, R> {
             }
             if let Some(other) = nodal.others.get(i) {
                 let other = parts(*other);
-                (0..6).for_each(|r| right[r][OTHER] += other[r]);
+                for r in 0..6 {
+                    right[r][OTHER] += other[r];
+                }
             }
             if let Some(after) = nodal.links.get(i) {
                 add(&mut pivot, &after.stiffness);
                 let upper = on_far(after);
-                (0..6).for_each(|r| (0..6).for_each(|c| right[r][c] = upper[r][c]));
+                for r in 0..6 {
+                    right[r][..6].copy_from_slice(&upper[r]);
+                }
             }
             if i > 0 {
                 add(&mut pivot, &on_far(&nodal.links[i - 1]));
             }
             while nodal.load_slopes.get(slopes).is_some_and(|(node, _)| *node == i) {
                 let slope = &nodal.load_slopes[slopes].1;
-                (0..6).for_each(|r| (0..6).for_each(|c| pivot[r][c] -= slope[r][c]));
+                for r in 0..6 {
+                    for c in 0..6 {
+                        pivot[r][c] -= slope[r][c];
+                    }
+                }
                 slopes += 1;
             }
             let hold = nodal.holds.get(holds).filter(|hold| hold.node == i);
@@ -84,7 +95,9 @@ impl<R: Real> Kernel for Eliminate<'_, R> {
                 // −L D⁻¹ U to the next pivot, and L D⁻¹ b to what acts.
                 earlier = product(&after.stiffness, &right);
                 for row in &mut earlier {
-                    (0..6).for_each(|c| row[c] = -row[c]);
+                    for x in &mut row[..6] {
+                        *x = -*x;
+                    }
                 }
             }
         }
@@ -211,12 +224,12 @@ fn reduce<R: Real>(left: &mut Square<R>, right: &mut Block<R>, inertia: &mut Ine
     }
 }
 
-/// The product of a block with another and what stands beside it.
+/// The product of a block with another, or with one and what stands beside it.
 #[inline(always)]
-fn product<R: Real>(a: &Square<R>, b: &Block<R>) -> Block<R> {
-    let mut out = [[R::zero(); 8]; 6];
+fn product<R: Real, const COLUMNS: usize>(a: &Square<R>, b: &[[R; COLUMNS]; 6]) -> [[R; COLUMNS]; 6] {
+    let mut out = [[R::zero(); COLUMNS]; 6];
     for (out, a) in out.iter_mut().zip(a) {
-        for c in 0..8 {
+        for c in 0..COLUMNS {
             let term = |k: usize| b[k][c] * a[k];
             out[c] = (term(0) + term(1)) + (term(2) + term(3)) + (term(4) + term(5));
         }
@@ -233,17 +246,10 @@ fn transposed<R: Real>(a: &Square<R>) -> Square<R> {
 fn restrict<R: Real>(hold: &Hold<R>, pivot: &mut Square<R>, right: &mut Block<R>) {
     let t = transposed(&hold.free);
     *right = product(&t, right);
-    let mut by_columns = [[R::zero(); 8]; 6];
-    let turned = transposed(pivot);
-    (0..6).for_each(|r| by_columns[r][..6].copy_from_slice(&turned[r]));
-    // (Pᵀ F)ᵀ F = Fᵀ P F.
-    let once = product(&t, &by_columns);
-    let mut held = [[R::zero(); 8]; 6];
-    (0..6).for_each(|r| (0..6).for_each(|c| held[r][c] = once[c][r]));
-    let twice = product(&t, &held);
+    let held = product(&t, &product(pivot, &hold.free));
     for r in 0..6 {
         for c in 0..6 {
-            pivot[r][c] = twice[r][c] + hold.curved[r][c];
+            pivot[r][c] = held[r][c] + hold.curved[r][c];
         }
         pivot[r][r] += hold.fixed[r];
     }
