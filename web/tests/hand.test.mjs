@@ -1,6 +1,7 @@
 // The hand: grabbed by mouse, fingers and keys; what it cannot reach; what is taken back.
 
 import assert from 'node:assert/strict'
+import { readFileSync } from 'node:fs'
 import { after, before, test } from 'node:test'
 import { badge, changes, done, hand, needle, openPage, openScene, openText, out, sharedPage, start, text, type, until, value } from './browser.mjs'
 
@@ -155,20 +156,7 @@ test('where no equilibrium is found out of reach, the failure is what the badge 
   assert.deepEqual(await judged('failed', true), ['away', 'out of reach by 200.0 mm'])
 })
 
-const ARCH = `
-format = 1
-name = "arch"
-
-[rods.strip]
-length = 0.3
-elements = 100
-kinematics = "kirchhoff"
-stiffness = { bending = [1e-4, 1e-2], torsion = 1e-2 }
-supports = [
-    { at = "start", fix = ["position", "orientation"] },
-    { at = "end", fix = ["position", "orientation"], position = [0.0, 0.0, 0.28] },
-]
-`
+const ARCH = readFileSync(new URL('../../crates/strands-wasm/src/session/arch.toml', import.meta.url), 'utf8')
 
 test('an arch whose end is turned by typed angles snaps over, which a notice says for a while, and stays stable', async () => {
   const { page, complaints } = await fresh()

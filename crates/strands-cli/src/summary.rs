@@ -100,9 +100,7 @@ fn rows(rod: &SolvedRod, problem: &Problem) -> Vec<(&'static str, String)> {
         rows.push(("", format!("force  {}", sized(each_settled(reaction.force, scale.force), "N"))));
         rows.push(("", format!("moment {}", sized(each_settled(reaction.moment, scale.moment), "N·m"))));
     }
-    if report.morse_index.is_some_and(|index| index > 0)
-        && let Some(mode) = unstable_mode(problem, solution, &mut Workspace::default())
-    {
+    if let Some(mode) = unstable_mode(problem, solution, &mut Workspace::default()) {
         rows.push(("falls", fall(&mode, problem)));
     }
     // The elastic energy is of second order in the strain, and so is its round-off.

@@ -38,10 +38,9 @@ struct ReactionAnswer {
 ///
 /// `iterations`, `energy` (elastic and of the loads, J) and `morse_index` are sums over the rods, `residual` is the largest;
 /// `morse_index` and `stable` are null where the loads have no potential or the elements are too long to tell. `method` is null where rods were
-/// solved in different ways. Reactions are those
-/// of the places that are held. `solve_seconds` is left out where it is not known. A rod in an unstable equilibrium has its `unstable_mode`: at the
-/// nodes the `rotation` (rotation vectors, rad) and `displacement` (m), world axes, in which it falls, the larger of turn and shift over length at
-/// most one, and the `curvature` of the energy along them (J, negative).
+/// solved in different ways. Reactions are those of the places that are held. `solve_seconds` is left out where it is not known. A rod in an
+/// unstable equilibrium has its `unstable_mode`: at the nodes the `rotation` (rotation vectors, rad) and `displacement` (m), world axes, in which
+/// it falls, the larger of turn and shift over length at most one, and the `curvature` of the energy along them (J, negative).
 pub fn json(model: &Model, solutions: &[(&str, &Solution)], solve_seconds: Option<f64>) -> String {
     let solved = Solved::all(model, solutions);
     let reports = || solved.iter().map(|solved| &solved.solution.report);

@@ -52,7 +52,6 @@ impl<'a> Solved<'a> {
 
     /// The mode in which it falls, where it is unstable.
     fn unstable_mode(&self) -> Option<UnstableMode> {
-        self.solution.report.morse_index.filter(|index| *index > 0)?;
         unstable_mode(&self.rod.problem, self.solution, &mut Workspace::default())
     }
 

@@ -267,20 +267,7 @@ fn a_hand_that_jumped_out_of_reach_is_given_up_without_a_start_from_rest_which_i
 }
 
 /// A strip clamped at both ends, which are so near to each other that it is an arch.
-const ARCH: &str = r#"
-format = 1
-name = "arch"
-
-[rods.strip]
-length = 0.3
-elements = 100
-kinematics = "kirchhoff"
-stiffness = { bending = [1e-4, 1e-2], torsion = 1e-2 }
-supports = [
-    { at = "start", fix = ["position", "orientation"] },
-    { at = "end", fix = ["position", "orientation"], position = [0.0, 0.0, 0.28] },
-]
-"#;
+const ARCH: &str = include_str!("arch.toml");
 
 #[test]
 fn an_arch_whose_end_is_turned_snaps_to_the_other_side_once_and_says_so() {

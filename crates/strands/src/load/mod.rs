@@ -178,9 +178,11 @@ impl NodalLoads {
         &self.pulls
     }
 
-    /// The force of the pulls on a node at a place, N, world axes.
-    pub(crate) fn pulled(&self, node: usize, place: Vec3) -> Vec3 {
-        self.pulls_at(node).iter().fold(Vec3::ZERO, |sum, pull| sum + pull.force(place))
+    /// What does not follow a node, with the node at a place: its dead wrench and its pulls, N·m and N, world axes.
+    pub(crate) fn in_world(&self, node: usize, place: Vec3) -> Wrench {
+        let mut wrench = self.world[node];
+        wrench.linear += self.pulls_at(node).iter().fold(Vec3::ZERO, |sum, pull| sum + pull.force(place));
+        wrench
     }
 
     /// Those at a node.

@@ -1,6 +1,6 @@
 //! Poses: the group SE(3) of frames `(R, p)`, its exponential, logarithm and tangent.
 
-use super::series::{arcsine_series, bernoulli_series};
+use super::series::{BERNOULLI, arcsine_series, bernoulli_series};
 use super::{ExpCoefficients, Mat3, Mat6, Quat, Real, Vec3, Vec6, Vector, exp_coefficients};
 
 /// A little below it, so that a whole radian is within.
@@ -187,20 +187,10 @@ pub fn tangent_inverse(x: Vec6) -> Mat6 {
 fn inverse_coefficients(t: f64) -> (f64, f64, f64) {
     let theta = t.sqrt();
     if t < 0.3 {
-        // |B₂ₖ|/(2k)!, the Bernoulli series of (θ/2) cot(θ/2).
-        const D: [f64; 9] = [
-            1.0 / 12.0,
-            1.0 / 720.0,
-            1.0 / 30240.0,
-            1.0 / 1_209_600.0,
-            1.0 / 47_900_160.0,
-            691.0 / 1_307_674_368_000.0,
-            1.0 / 74_724_249_600.0,
-            3617.0 / 10_670_622_842_880_000.0,
-            43867.0 / 5_109_094_217_170_944_000.0,
-        ];
-        let value = D.iter().rev().fold(0.0, |sum, a| sum * t + a);
-        let slope = (1..9).rev().fold(0.0, |sum, k| sum * t + k as f64 * D[k]);
+        // So many terms are exact to round-off here.
+        let terms = &BERNOULLI[..9];
+        let value = terms.iter().rev().fold(0.0, |sum, a| sum * t + a);
+        let slope = (1..9).rev().fold(0.0, |sum, k| sum * t + k as f64 * terms[k]);
         return (theta, value, slope);
     }
     let half = 0.5 * theta;

@@ -307,8 +307,7 @@ pub(crate) fn renormalised(rotation: Mat3) -> Mat3 {
 
 /// The section at the start with the first node's loads: its wrench is the opposite of the start's reaction, in the frame.
 pub(crate) fn loaded_start(problem: &Problem, start: &Section) -> Section {
-    let mut world = problem.loads.world[0];
-    world.linear += problem.loads.pulled(0, start.pose.position);
+    let world = problem.loads.in_world(0, start.pose.position);
     let loads = problem.loads.body[0] + turned(&start.pose, world);
     Section { pose: start.pose, wrench: start.wrench + loads }
 }

@@ -417,8 +417,8 @@ impl Follower<'_> {
         report: SolveReport,
         before: &Tangent,
     ) -> Result<Point, String> {
-        finish(&problem, self.workspace.simd, &mut record);
         let level = self.workspace.simd;
+        finish(&problem, level, &mut record);
         let mut nodal = Nodal::default();
         let lent = rigid_compliance(strength(&problem, &record));
         nodal.linearise(&problem, level, lent, &mut record).ok_or("an element's law has no solution")?;

@@ -55,8 +55,7 @@ impl Record {
     /// The same with what acts on the node: what the element before it carries where nothing holds the node.
     pub fn carried_with_loads(&self, node: usize, loads: &NodalLoads) -> Wrench {
         let pose = &self.poses[node];
-        let mut world = loads.world[node];
-        world.linear += loads.pulled(node, pose.position);
+        let world = loads.in_world(node, pose.position);
         self.carried_beyond(node) + loads.body[node] + turned(pose, world)
     }
 

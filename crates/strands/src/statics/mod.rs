@@ -297,7 +297,7 @@ fn by_moving(
     if has_energy(problem, settings) {
         return equilibrium::from_rest(problem, settings, workspace, report);
     }
-    let twin = Problem { rod: problem.rod.clone().of_second_order(), ..problem.clone() };
+    let twin = problem.of_second_order();
     let rests = equilibrium::from_rest(&twin, settings, workspace, report);
     if settings.scheme == Scheme::Element {
         return equilibrium::nearest(problem, settings, workspace, report);
@@ -513,8 +513,8 @@ impl Solution {
             moment_size = moment_size.max(m.norm()).max(lever.norm());
         };
         for (i, pose) in self.poses.iter().enumerate() {
-            let (world, body) = (problem.loads.world[i], problem.loads.body[i]);
-            add(world.linear + problem.loads.pulled(i, pose.position), world.angular, pose.position);
+            let (world, body) = (problem.loads.in_world(i, pose.position), problem.loads.body[i]);
+            add(world.linear, world.angular, pose.position);
             add(pose.rotation * body.linear, pose.rotation * body.angular, pose.position);
         }
         for (reaction, (node, _)) in self.reactions.iter().zip(problem.supports()) {

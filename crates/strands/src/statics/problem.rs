@@ -166,6 +166,11 @@ impl Problem {
         self.between.is_empty() && self.loads.pulls().is_empty()
     }
 
+    /// The same on elements of order 2.
+    pub(crate) fn of_second_order(&self) -> Self {
+        Self { rod: self.rod.clone().of_second_order(), ..self.clone() }
+    }
+
     /// A rod clamped at its base frame, its other end free, nothing acting on it.
     pub fn cantilever(rod: Rod) -> Self {
         let loads = NodalLoads::none(&rod);

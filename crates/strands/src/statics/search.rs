@@ -15,7 +15,7 @@ use super::shooting::{Outcome, Search, Workspace};
 use super::solution::{FailureReason, Method, Scheme, Settings, Solution, SolveReport};
 use super::{fit, has_energy, multiple_shooting, solution, stability};
 use crate::math::Pose;
-use crate::rod::{Order, Rod};
+use crate::rod::Order;
 use fastrand::Rng;
 
 /// How hard to search.
@@ -65,7 +65,7 @@ pub fn equilibria(
         scheme: Scheme::Element,
         ..settings.solver
     };
-    let quick = of_order_two(problem);
+    let quick = problem.of_second_order();
     let random = Rng::with_seed(settings.seed);
     let mut seeker = Seeker { problem: &quick, solver, workspace, random, found: Vec::new() };
     seeker.try_starts(settings.starts);
@@ -79,13 +79,6 @@ pub fn equilibria(
         all = seeker.found;
     }
     Ok(all.into_iter().map(|found| found.solution).collect())
-}
-
-/// The same problem on elements of order 2.
-fn of_order_two(problem: &Problem) -> Problem {
-    let rod = &problem.rod;
-    let quick = Rod::new(rod.description().clone(), rod.mesh().clone(), Order::Second);
-    Problem { rod: quick.unwrap_or_else(|_| rod.clone()), ..problem.clone() }
 }
 
 /// An equilibrium with its state.

@@ -110,7 +110,8 @@ pub fn unstable_mode(
     solution: &Solution,
     workspace: &mut Workspace,
 ) -> Option<UnstableMode> {
-    if !has_potential(problem) || !super::recall(problem, solution, workspace) {
+    let unstable = solution.report.morse_index.is_some_and(|index| index > 0);
+    if !unstable || !super::recall(problem, solution, workspace) {
         return None;
     }
     let Workspace { record, nodal, variation, simd, .. } = workspace;
