@@ -13,8 +13,8 @@ use serde::Serialize;
 use strands::math::{Pose, SimdLevel, Wrench};
 use strands::rod::{Kinematics, Order, RodError};
 use strands::statics::{
-    Guess, Jacobian, Method, Problem, Scheme, Settings, Solution, SolveFailure, SolveReport, Workspace,
-    follow, solve,
+    Batch, BatchError, Guess, Jacobian, Method, Problem, Scheme, Settings, Solution, SolveFailure,
+    SolveReport, Workspace, follow, solve,
 };
 use strands_cases::bank;
 
@@ -33,6 +33,9 @@ Figures (of a steel wire 0.5 m long, 2 mm thick, where no other is named; one th
   equilibrium.iteration.100 .1000 .10000
                                    one of its iterations on that many elements (linearise, factor,
                                    solve), ns for each of a node's six numbers
+  batch.rod batch.faster           as equilibrium.warm, of eight rods followed side by side, each with a
+                                   hand of its own, µs for one of them; and how many times faster than
+                                   one after the other, in the same run
   jacobian.variational_lanes .variational .finite_differences .finite_difference_lanes
                                    one Jacobian, over one sweep of the same rod, from times of
                                    whole solves; by finite differences it is six sweeps, which
@@ -69,6 +72,9 @@ pub enum BenchError {
     /// A problem could not be solved.
     #[error(transparent)]
     Solve(#[from] Box<SolveFailure>),
+    /// Rods could not be put side by side.
+    #[error(transparent)]
+    Batch(#[from] BatchError),
     /// Instructions could not be counted.
     #[error("{0}")]
     Count(String),
@@ -83,6 +89,7 @@ pub fn measure() -> Result<Vec<Figure>, BenchError> {
     figures.extend(sweeps()?);
     figures.extend(warm()?);
     figures.extend(all_at_once()?);
+    figures.extend(side_by_side()?);
     figures.extend(jacobians()?);
     figures.extend(cost()?);
     figures.extend(workloads()?);
@@ -217,6 +224,45 @@ fn all_at_once() -> Result<Vec<Figure>, BenchError> {
         figures.push(figure(format!("equilibrium.iteration.{elements}"), mean * 1e9 / scalars, "ns"));
     }
     Ok(figures)
+}
+
+/// Rods side by side against the same rods one after the other, their frames read.
+fn side_by_side() -> Result<Vec<Figure>, BenchError> {
+    const RODS: usize = 8;
+    const STEPS: usize = 1_000;
+    let settings = Settings { method: Method::Equilibrium, tolerance: 1e-10, ..Settings::default() };
+    let problem = problems::held(ELEMENTS, problems::home())?;
+    let mut batch = Batch::new(vec![problem.clone(); RODS], &settings)?;
+    let mut alone = Vec::new();
+    for _ in 0..RODS {
+        let mut workspace = Workspace::default();
+        let guess = solved(&problem, &settings, None, &mut workspace)?.guess;
+        alone.push((problem.clone(), guess, workspace));
+    }
+    let (mut beside, mut apart) = (Vec::with_capacity(STEPS), Vec::with_capacity(STEPS));
+    let (mut report, mut poses) = (SolveReport::default(), Vec::new());
+    // Each hand goes the same way, some steps ahead of the one before.
+    let places = problems::wander(STEPS + RODS);
+    for step in 0..STEPS {
+        for (rod, (problem, ..)) in alone.iter_mut().enumerate() {
+            problem.end.pose = places[step + rod];
+            *batch.end_mut(rod) = places[step + rod];
+        }
+        let start = Instant::now();
+        black_box(batch.follow(&settings));
+        for rod in 0..RODS {
+            batch.read_poses(rod, &mut poses);
+            black_box(&poses);
+        }
+        beside.push(start.elapsed().as_secs_f64() / RODS as f64);
+        let start = Instant::now();
+        for (problem, guess, workspace) in &mut alone {
+            black_box(follow(problem, &settings, guess, workspace, &mut report));
+        }
+        apart.push(start.elapsed().as_secs_f64() / RODS as f64);
+    }
+    let (beside, apart) = (clock::quantile(&mut beside, 0.5), clock::quantile(&mut apart, 0.5));
+    Ok(vec![figure("batch.rod", beside * 1e6, "µs"), figure("batch.faster", apart / beside, "times")])
 }
 
 /// Searches while the hand wanders.

@@ -4,7 +4,7 @@
 //! instruction of the widest kind that the feature allows, and elsewhere into as many narrow ones as it takes. The
 //! arithmetic is the same in either case, so the results are the same bits.
 
-use super::{Mat3, Pose, Real, Vec3, Vec6};
+use super::{Mat3, Pose, Real, Vec3, Vec6, Wide};
 use core::ops::{Add, AddAssign, Div, Mul, Neg, Sub, SubAssign};
 
 /// `N` numbers side by side.
@@ -72,8 +72,21 @@ impl<const N: usize> SubAssign for Lanes<N> {
     }
 }
 
+impl<const N: usize> Wide for Lanes<N> {
+    #[inline(always)]
+    fn put_number(&mut self, lane: usize, value: f64) {
+        self.0[lane] = value;
+    }
+    #[inline(always)]
+    fn number(&self, lane: usize) -> f64 {
+        self.0[lane]
+    }
+}
+
 impl<const N: usize> Real for Lanes<N> {
     type Mask = [bool; N];
+
+    const LANES: usize = N;
 
     #[inline(always)]
     fn splat(value: f64) -> Self {
@@ -109,21 +122,25 @@ impl<const N: usize> Real for Lanes<N> {
     }
 }
 
-impl<const N: usize> Vec3<Lanes<N>> {
+#[allow(private_bounds)]
+impl<R: Wide> Vec3<R> {
     /// Puts a vector into one lane.
     #[inline(always)]
     pub(crate) fn put(&mut self, i: usize, v: Vec3) {
-        (self.x.0[i], self.y.0[i], self.z.0[i]) = (v.x, v.y, v.z);
+        self.x.put_number(i, v.x);
+        self.y.put_number(i, v.y);
+        self.z.put_number(i, v.z);
     }
 
     /// The vector in one lane.
     #[inline(always)]
     pub(crate) fn lane(&self, i: usize) -> Vec3 {
-        Vec3::new(self.x.0[i], self.y.0[i], self.z.0[i])
+        Vec3::new(self.x.number(i), self.y.number(i), self.z.number(i))
     }
 }
 
-impl<const N: usize> Vec6<Vec3<Lanes<N>>> {
+#[allow(private_bounds)]
+impl<R: Wide> Vec6<Vec3<R>> {
     /// Puts a pair into one lane.
     #[inline(always)]
     pub(crate) fn put(&mut self, i: usize, v: Vec6) {
@@ -138,7 +155,8 @@ impl<const N: usize> Vec6<Vec3<Lanes<N>>> {
     }
 }
 
-impl<const N: usize> Pose<Vec3<Lanes<N>>> {
+#[allow(private_bounds)]
+impl<R: Wide> Pose<Vec3<R>> {
     /// Puts a pose into one lane.
     #[inline(always)]
     pub(crate) fn put(&mut self, i: usize, pose: &Pose) {

@@ -12,6 +12,8 @@ mod packed;
 mod pose;
 mod quat;
 mod real;
+#[cfg(target_arch = "x86_64")]
+mod registers;
 mod series;
 mod simd;
 mod vec3;
@@ -27,6 +29,9 @@ pub(crate) use packed::Packed;
 pub use pose::{Pose, tangent, tangent_inverse};
 pub use quat::Quat;
 pub use real::Real;
+pub(crate) use real::{Register, Wide};
+#[cfg(target_arch = "x86_64")]
+pub(crate) use registers::{Eight, Four};
 pub use series::{ExpCoefficients, exp_coefficients, exp_coefficients_second};
 pub use simd::SimdLevel;
 #[cfg(target_arch = "x86_64")]

@@ -4,6 +4,7 @@
 //! boundary values) on [`Lanes`](super::Lanes), and carries derivatives on the dual numbers of the tests. Every operation is a
 //! plain IEEE operation or a polynomial, so all widths give the same bits, lane by lane, on every target.
 
+use super::Kernel;
 use core::fmt::Debug;
 use core::ops::{Add, AddAssign, Div, Mul, Neg, Sub, SubAssign};
 
@@ -24,6 +25,9 @@ pub trait Real:
 {
     /// What a comparison gives: one truth value a lane.
     type Mask: Copy;
+
+    /// How many numbers stand side by side.
+    const LANES: usize = 1;
 
     /// The same number in every lane.
     fn splat(value: f64) -> Self;
@@ -60,6 +64,49 @@ pub trait Real:
 
     /// Applies a function of one number with its derivative, lane by lane: `function(x) = (f(x), f'(x))`.
     fn map(self, function: impl Fn(f64) -> (f64, f64)) -> Self;
+}
+
+/// Numbers side by side that can be set and read one by one, of rods side by side.
+pub(crate) trait Wide: Real {
+    /// Sets the number in one lane.
+    fn put_number(&mut self, lane: usize, value: f64);
+
+    /// The number in one lane.
+    fn number(&self, lane: usize) -> f64;
+
+    /// From the number of each lane.
+    #[inline(always)]
+    fn from_lanes(mut number: impl FnMut(usize) -> f64) -> Self {
+        let mut out = Self::zero();
+        for lane in 0..Self::LANES {
+            out.put_number(lane, number(lane));
+        }
+        out
+    }
+}
+
+/// Numbers that fill a register.
+pub(crate) trait Register: Wide {
+    /// Runs a kernel with the instructions that these numbers are made for.
+    fn run<K: Kernel>(kernel: K) -> K::Output;
+}
+
+/// A rod alone, where registers hold no more.
+impl Register for f64 {
+    fn run<K: Kernel>(kernel: K) -> K::Output {
+        kernel.run()
+    }
+}
+
+impl Wide for f64 {
+    #[inline(always)]
+    fn put_number(&mut self, _: usize, value: f64) {
+        *self = value;
+    }
+    #[inline(always)]
+    fn number(&self, _: usize) -> f64 {
+        *self
+    }
 }
 
 impl Real for f64 {

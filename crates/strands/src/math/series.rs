@@ -58,18 +58,22 @@ const DC: [f64; 8] = coefficients(3, 1);
 const DDB: [f64; 8] = coefficients(2, 2);
 const DDC: [f64; 8] = coefficients(3, 2);
 
+/// Not a closure: those are not always put in line.
+#[inline(always)]
+fn two_terms<R: Real>(a: &[f64; 8], i: usize, t: R) -> R {
+    R::splat(a[i]) + R::splat(a[i + 1]) * t
+}
+
 /// The first four terms, in an order that shortens the chain of operations (Estrin).
 #[inline(always)]
 fn short_polynomial<R: Real>(a: &[f64; 8], t: R, t2: R) -> R {
-    let pair = |i: usize| R::splat(a[i]) + R::splat(a[i + 1]) * t;
-    pair(0) + pair(2) * t2
+    two_terms(a, 0, t) + two_terms(a, 2, t) * t2
 }
 
 /// All eight.
 #[inline(always)]
 fn polynomial<R: Real>(a: &[f64; 8], t: R, t2: R, t4: R) -> R {
-    let pair = |i: usize| R::splat(a[i]) + R::splat(a[i + 1]) * t;
-    (pair(0) + pair(2) * t2) + (pair(4) + pair(6) * t2) * t4
+    (two_terms(a, 0, t) + two_terms(a, 2, t) * t2) + (two_terms(a, 4, t) + two_terms(a, 6, t) * t2) * t4
 }
 
 /// The coefficients at `t = θ²`. Each lane takes the series that its own `t` asks for, so that it gets the same bits alone.

@@ -218,6 +218,81 @@ mod packed_vectors {
     }
 }
 
+#[cfg(target_arch = "x86_64")]
+mod registers {
+    use super::*;
+    use crate::math::{Eight, Four, Register};
+
+    /// Every operation of numbers side by side, once; the bits of the results, lane by lane.
+    struct EveryOperation<R> {
+        a: [f64; 8],
+        b: [f64; 8],
+        kind: core::marker::PhantomData<R>,
+    }
+
+    impl<R: Register> Kernel for EveryOperation<R> {
+        type Output = Vec<[u64; 8]>;
+
+        #[inline(always)]
+        fn run(self) -> Self::Output {
+            let mut results = vec![[0; 8]; 14];
+            for first in (0..8).step_by(R::LANES) {
+                let a = R::from_lanes(|lane| self.a[first + lane]);
+                let b = R::from_lanes(|lane| self.b[first + lane]);
+                let (below, both) = (a.at_most(0.5), R::and(a.at_most(0.5), b.at_most(0.5)));
+                let (mut sum, mut difference) = (a, a);
+                sum += b;
+                difference -= b;
+                let all = R::select(below, R::splat(f64::from(R::all(R::splat(0.25).at_most(0.5)))), b);
+                let operations = [
+                    a + b,
+                    a - b,
+                    a * b,
+                    a / b,
+                    -a,
+                    sum,
+                    difference,
+                    a.abs(),
+                    a.abs().sqrt(),
+                    R::select(below, a, b),
+                    R::select(both, a, b),
+                    a.map(|x| (x.cbrt(), f64::NAN)),
+                    R::zero() + R::one(),
+                    all,
+                ];
+                for (result, operation) in results.iter_mut().zip(operations) {
+                    for lane in 0..R::LANES {
+                        result[first + lane] = operation.number(lane).to_bits();
+                    }
+                }
+            }
+            results
+        }
+    }
+
+    proptest! {
+        #[test]
+        fn numbers_in_registers_give_the_bits_of_single_numbers(
+            mut a in prop::array::uniform8(-2.0..2.0f64),
+            b in prop::array::uniform8(-2.0..2.0f64),
+            odd in prop::sample::select(vec![0.0, -0.0, f64::INFINITY, f64::MIN_POSITIVE, 0.5]),
+            at in 0..8usize,
+        ) {
+            a[at] = odd;
+            let single = f64::run(EveryOperation::<f64> { a, b, kind: core::marker::PhantomData });
+            // A machine without the registers has no such numbers to test.
+            if SimdLevel::detect() >= SimdLevel::Avx2 {
+                let four = Four::run(EveryOperation::<Four> { a, b, kind: core::marker::PhantomData });
+                prop_assert_eq!(&single, &four);
+            }
+            if SimdLevel::detect() >= SimdLevel::Avx512 {
+                let eight = Eight::run(EveryOperation::<Eight> { a, b, kind: core::marker::PhantomData });
+                prop_assert_eq!(&single, &eight);
+            }
+        }
+    }
+}
+
 #[test]
 fn a_symmetric_matrix_of_any_signs_is_solved_and_its_negative_eigenvalues_are_counted() {
     let mut rng = fastrand::Rng::with_seed(7);

@@ -17,15 +17,15 @@ use crate::math::{Mat3, Pose, SimdLevel, Strain, Vec3, Vec6, Wrench};
 use crate::rod::Order;
 
 /// How a rod is first laid out, and how it may move from there.
-struct Plan {
+pub(super) struct Plan {
     /// By how much it is bent over its length beside its rest shape, rad.
     bend: Vec3,
     /// The drag at first, over `EI/L³`.
     drag: f64,
     /// The compliance against shifts lent to it for each unit of slack, over `L³/EI`.
-    lent: f64,
+    pub(super) lent: f64,
     /// How far, in rad and half lengths, a node may move in one step.
-    stride: f64,
+    pub(super) stride: f64,
     /// Steps after which another plan is tried.
     steps: usize,
 }
@@ -41,10 +41,10 @@ const PLANS: [Plan; 6] = [
     Plan { bend: Vec3::new(2.0, 3.0, 1.0), drag: 10.0, lent: 3e-4, stride: 0.3, steps: 300 },
 ];
 /// From near an equilibrium.
-const WARM: Plan = Plan { bend: Vec3::ZERO, drag: 0.0, lent: 1e-3, stride: 0.5, steps: 100 };
+pub(super) const WARM: Plan = Plan { bend: Vec3::ZERO, drag: 0.0, lent: 1e-3, stride: 0.5, steps: 100 };
 
 /// The compliance lent at most, over that for one unit of slack.
-const MOST_SLACK: f64 = 3.0;
+pub(super) const MOST_SLACK: f64 = 3.0;
 /// The least that is lent to an element, over `L³/EI`: were it any stiffer, round-off in its stiffness would decide the signs of the pivots.
 const LEAST_LENT: f64 = 1e-12;
 /// The least that is lent to all, over `L³/EI`, by Newton's method alone, and elsewhere over the [`strength`]: close to where the rod loses its
@@ -56,17 +56,17 @@ const SOME_DRAG: f64 = 1.0;
 /// A support that moves less, in rad and lengths, has not moved.
 const ROUND_OFF: f64 = 1e-12;
 /// A motion up to this is answered linearly.
-const SMALL_MOTION: f64 = 0.1;
+pub(super) const SMALL_MOTION: f64 = 0.1;
 /// More drag than this stops everything.
 const MOST_DRAG: f64 = 1e15;
 /// Where a rod is stiffer than a drag by more than this, a step against that is as good as Newton's.
-const MUCH_STIFFER: f64 = 100.0;
+pub(super) const MUCH_STIFFER: f64 = 100.0;
 /// The drag against which a rod leaves an unstable equilibrium, over what would hold it there.
 const HARDLY_HELD: f64 = 1.1;
 /// Drag below this is left away: a shift by a tenth of the length would meet less force than a hair's weight.
 const LEAST_DRAG: f64 = 1e-3;
 /// What is left of it, over the [`strength`], so that a rod that is free to turn as a whole stays where it is.
-const HARDLY_ANY: f64 = 4e-5;
+pub(super) const HARDLY_ANY: f64 = 4e-5;
 
 /// Searches from the rod laid out between its supports by its rest shape; where that is too taut or too heavy for the way there to be smooth,
 /// from under less load and with the supports nearer to each other, by degrees.
@@ -514,7 +514,7 @@ fn relax(
 }
 
 /// The least that is lent to all elements together.
-fn least_lent(problem: &Problem, strength: f64) -> f64 {
+pub(super) fn least_lent(problem: &Problem, strength: f64) -> f64 {
     (LEAST_LENT * problem.rod.elements() as f64).max(STEADY_LENT / strength)
 }
 

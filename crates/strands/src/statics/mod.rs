@@ -3,8 +3,11 @@
 //! [`solve`] finds it. The standard boundary value problem of the paper (one end clamped, the wrench at the other given) is two
 //! sweeps when the loads follow the rod; with dead loads, whose direction in the material frame depends on how the end is turned, and
 //! with a prescribed end, it is a search for what is unknown at the end: [`Method::Shooting`].
+//!
+//! Many rods of one kind are followed side by side in vector lanes by a [`Batch`].
 
 mod almost_block_diagonal;
+mod batch;
 mod boundary;
 mod chain;
 mod continuation;
@@ -24,6 +27,7 @@ mod stability;
 mod sweep;
 mod variation;
 
+pub use batch::{Batch, BatchError};
 pub use continuation::{Event, EventKind, Path, PathEnd, PathError, PathPoint, PathSettings, follow_path};
 pub use plan::{Plan, plan};
 pub use problem::{Problem, Stretch, Support};

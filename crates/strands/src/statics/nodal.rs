@@ -16,10 +16,13 @@
 
 mod elimination;
 mod second_variation;
+mod side_by_side;
 
-use elimination::{Block, Eliminate, Inertia, Square, pair, parts};
+pub(crate) use elimination::Inertia;
+use elimination::{Block, Eliminate, Square, pair, parts};
 pub(crate) use second_variation::SecondVariation;
 use second_variation::TURNING;
+pub(crate) use side_by_side::SideBySide;
 
 use super::boundary::{displacements, displacements_slope, meet};
 use super::march::Record;
@@ -57,7 +60,7 @@ struct Hold<R> {
 }
 
 /// The linear system, and its solution.
-#[derive(Clone, Debug, Default)]
+#[derive(Clone, Debug)]
 pub(crate) struct Nodal<R = f64> {
     axes: Axes,
     links: Vec<Link<R>>,
@@ -74,6 +77,24 @@ pub(crate) struct Nodal<R = f64> {
     pub others: Vec<Wrench<Vec3<R>>>,
     pub other_steps: Vec<Vec6<Vec3<R>>>,
     other_pulls: Vec<Wrench<Vec3<R>>>,
+}
+
+impl<R> Default for Nodal<R> {
+    fn default() -> Self {
+        Self {
+            axes: Axes::default(),
+            links: Vec::new(),
+            loads: Vec::new(),
+            load_slopes: Vec::new(),
+            holds: Vec::new(),
+            places: Vec::new(),
+            follows: Vec::new(),
+            steps: Vec::new(),
+            others: Vec::new(),
+            other_steps: Vec::new(),
+            other_pulls: Vec::new(),
+        }
+    }
 }
 
 /// How far a state is from equilibrium.
@@ -324,6 +345,11 @@ impl Nodal {
         self.links.iter_mut().for_each(|link| link.pull = Wrench::ZERO);
     }
 
+    /// Forgets what it was last solved for.
+    pub fn forget(&mut self) {
+        self.links.clear();
+    }
+
     /// Whether the system was last solved for about this state of a rod.
     pub fn is_of(&self, state: &Record) -> bool {
         let near = |(place, pose): (&Vec3, &Pose)| (*place - self.axes.at(pose.position)).norm() < 1e-2;
@@ -400,35 +426,52 @@ impl<R: Real> Link<R> {
 
 impl<R: Real> Nodal<R> {
     /// The wrench that acts on a node, in the fixed axes; at a held node the opposite of the reaction.
+    #[inline(always)]
     fn imbalance(&self, node: usize) -> Wrench<Vec3<R>> {
-        let mut wrench = self.loads[node];
-        if let Some(link) = self.links.get(node) {
-            wrench += link.carried;
-        }
-        if node > 0 {
-            wrench -= self.links[node - 1].carried;
-        }
-        wrench
+        between_links(self.loads[node], &self.links, node, |link| link.carried)
     }
 
     /// What acts on a node when the elements have taken up their slack: the right-hand side of the system.
+    #[inline(always)]
     pub fn acting(&self, node: usize) -> Wrench<Vec3<R>> {
-        let mut wrench = self.imbalance(node);
-        if let Some(link) = self.links.get(node) {
-            wrench += link.pull;
-        }
-        if node > 0 {
-            wrench -= self.links[node - 1].pull;
-        }
-        wrench
+        acting(&self.loads, &self.links, node)
     }
+}
+
+#[inline(always)]
+fn acting<R: Real>(loads: &[Wrench<Vec3<R>>], links: &[Link<R>], node: usize) -> Wrench<Vec3<R>> {
+    let imbalance = between_links(loads[node], links, node, |link| link.carried);
+    between_links(imbalance, links, node, |link| link.pull)
+}
+
+/// What the element after a node exerts on it beside a wrench, and the one before.
+#[inline(always)]
+fn between_links<R: Real>(
+    mut wrench: Wrench<Vec3<R>>,
+    links: &[Link<R>],
+    node: usize,
+    exerted: impl Fn(&Link<R>) -> Wrench<Vec3<R>>,
+) -> Wrench<Vec3<R>> {
+    if let Some(link) = links.get(node) {
+        wrench += exerted(link);
+    }
+    if node > 0 {
+        wrench -= exerted(&links[node - 1]);
+    }
+    wrench
 }
 
 impl<R: Real> Hold<R> {
     /// The work of a wrench on each free displacement.
+    #[inline(always)]
     fn along_free(&self, wrench: Wrench<Vec3<R>>) -> Wrench<Vec3<R>> {
-        let w = parts(wrench);
-        pair(core::array::from_fn(|c| (0..6).fold(R::zero(), |sum, r| sum + self.free[r][c] * w[r])))
+        let (w, mut work) = (parts(wrench), [R::zero(); 6]);
+        for (w, row) in w.iter().zip(&self.free) {
+            for c in 0..6 {
+                work[c] += row[c] * *w;
+            }
+        }
+        pair(work)
     }
 }
 
@@ -590,6 +633,10 @@ impl Axes {
 
     fn frame(&self, pose: &Pose) -> Pose {
         Pose { rotation: pose.rotation, position: self.at(pose.position) }
+    }
+
+    fn in_world(&self, pose: &Pose) -> Pose {
+        Pose { rotation: pose.rotation, position: self.origin + pose.position * self.length }
     }
 
     fn wrench(&self, wrench: Wrench) -> Wrench {

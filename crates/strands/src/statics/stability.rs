@@ -21,7 +21,7 @@ const RIGID_COMPLIANCE: f64 = 1e-7;
 /// By what is lent, over `L³/EI`, and the square of the strength, an eigenvalue may be too low: a column's is by `π²` times.
 const TOO_LOW: f64 = 10.0;
 /// An eigenvalue below this, over `EI/L³` and the [`strength`], is none: the rod may be free to turn about an axis, and then round-off decides its sign.
-const NEUTRAL: f64 = 1e-6;
+pub(super) const NEUTRAL: f64 = 1e-6;
 
 /// The Morse index of the equilibrium recorded in the workspace. `None` where follower loads or dead moments act on what can move or turn, which
 /// have no potential, where a pivot vanishes, and where an element is so long for what it carries that a way down may be its own.

@@ -4,6 +4,7 @@ use crate::load::{DistributedLoad, Frame, NodalLoads, PointLoad};
 use crate::math::{Pose, Quat, SimdLevel, Wrench};
 use crate::rod::{Law, Mesh, Order, Profile, RestShape, Rod, RodDescription, Stiffness};
 
+mod batch;
 mod continuation;
 mod fit;
 mod meshes;

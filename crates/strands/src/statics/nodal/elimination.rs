@@ -3,7 +3,7 @@
 //! Written for one rod or several side by side.
 
 use super::second_variation::TURNING;
-use super::{Hold, Link, Nodal};
+use super::{Hold, Link, Nodal, acting};
 use crate::math::{Kernel, Mat3, Real, Vec3, Vec6, Vector};
 
 /// A pivot below this part of its block's diagonal is none.
@@ -40,72 +40,75 @@ impl<R: Real> Kernel for Eliminate<'_, R> {
         let n = nodal.links.len();
         nodal.follows.resize(n + 1, [[R::zero(); 8]; 6]);
         nodal.steps.resize(n + 1, Vec6::zero());
+        let Nodal { links, loads, load_slopes, holds, places, follows, steps, others, other_steps, .. } =
+            nodal;
+        let columns = if others.is_empty() { OTHER } else { OTHER + 1 };
         let mut inertia = Inertia { negative: R::zero(), vanished: R::zero() };
-        // What the nodes before add to the pivot, and to what acts.
+        // What the nodes before take from the pivot, and add to what acts.
         let mut earlier = [[R::zero(); 8]; 6];
-        let (mut holds, mut slopes) = (0, 0);
+        let (mut next_hold, mut next_slope) = (0, 0);
         for i in 0..=n {
             let mut pivot = [[R::zero(); 6]; 6];
             for r in 0..6 {
-                pivot[r].copy_from_slice(&earlier[r][..6]);
+                for c in 0..6 {
+                    pivot[r][c] = -earlier[r][c];
+                }
             }
-            let mut right = [[R::zero(); 8]; 6];
-            add_drag(&mut pivot, nodal.places[i], drag);
-            let acting = parts(nodal.acting(i));
+            let right = &mut follows[i];
+            add_drag(&mut pivot, places[i], drag);
+            let acts = parts(acting(loads, links, i));
             for r in 0..6 {
-                right[r][ACTING] = earlier[r][ACTING] + acting[r];
+                right[r][ACTING] = earlier[r][ACTING] + acts[r];
                 right[r][OTHER] = earlier[r][OTHER];
             }
-            if let Some(other) = nodal.others.get(i) {
+            if let Some(other) = others.get(i) {
                 let other = parts(*other);
                 for r in 0..6 {
                     right[r][OTHER] += other[r];
                 }
             }
-            if let Some(after) = nodal.links.get(i) {
+            if let Some(after) = links.get(i) {
                 add(&mut pivot, &after.stiffness);
                 let upper = on_far(after);
                 for r in 0..6 {
                     right[r][..6].copy_from_slice(&upper[r]);
                 }
+            } else {
+                for row in right.iter_mut() {
+                    row[..6].fill(R::zero());
+                }
             }
             if i > 0 {
-                add(&mut pivot, &on_far(&nodal.links[i - 1]));
+                add(&mut pivot, &on_far(&links[i - 1]));
             }
-            while nodal.load_slopes.get(slopes).is_some_and(|(node, _)| *node == i) {
-                let slope = &nodal.load_slopes[slopes].1;
+            while load_slopes.get(next_slope).is_some_and(|(node, _)| *node == i) {
+                let slope = &load_slopes[next_slope].1;
                 for r in 0..6 {
                     for c in 0..6 {
                         pivot[r][c] -= slope[r][c];
                     }
                 }
-                slopes += 1;
+                next_slope += 1;
             }
-            let hold = nodal.holds.get(holds).filter(|hold| hold.node == i);
+            let hold = holds.get(next_hold).filter(|hold| hold.node == i);
             if let Some(hold) = hold {
-                holds += 1;
-                restrict(hold, &mut pivot, &mut right);
+                next_hold += 1;
+                restrict(hold, &mut pivot, right);
             }
-            reduce(&mut pivot, &mut right, &mut inertia);
+            reduce(&mut pivot, right, columns, &mut inertia);
             if let Some(hold) = hold {
-                expand(hold, &mut right);
+                *right = product(&hold.free, right);
             }
-            nodal.follows[i] = right;
-            if let Some(after) = nodal.links.get(i) {
-                // −L D⁻¹ U to the next pivot, and L D⁻¹ b to what acts.
-                earlier = product(&after.stiffness, &right);
-                for row in &mut earlier {
-                    for x in &mut row[..6] {
-                        *x = -*x;
-                    }
-                }
+            if let Some(after) = links.get(i) {
+                // L D⁻¹ U of the next pivot, and L D⁻¹ b of what acts.
+                multiply(&after.stiffness, right, columns, &mut earlier);
             }
         }
-        put_together(&nodal.follows, ACTING, &mut nodal.steps);
-        nodal.other_steps.clear();
-        if !nodal.others.is_empty() {
-            nodal.other_steps.resize(n + 1, Vec6::zero());
-            put_together(&nodal.follows, OTHER, &mut nodal.other_steps);
+        put_together(follows, ACTING, steps);
+        other_steps.clear();
+        if !others.is_empty() {
+            other_steps.resize(n + 1, Vec6::zero());
+            put_together(follows, OTHER, other_steps);
         }
         inertia
     }
@@ -151,18 +154,21 @@ fn add<R: Real>(to: &mut Square<R>, block: &Square<R>) {
 fn on_far<R: Real>(link: &Link<R>) -> Square<R> {
     let mut block = link.stiffness;
     let (m, n) = (link.carried.angular, link.carried.linear);
-    let mut minus_hat = |r: usize, c: usize, v: Vec3<R>| {
-        block[r][c + 1] += v.z;
-        block[r][c + 2] -= v.y;
-        block[r + 1][c] -= v.z;
-        block[r + 1][c + 2] += v.x;
-        block[r + 2][c] += v.y;
-        block[r + 2][c + 1] -= v.x;
-    };
-    minus_hat(0, 0, m);
-    minus_hat(0, 3, n);
-    minus_hat(3, 0, n);
+    minus_hat(&mut block, 0, 0, m);
+    minus_hat(&mut block, 0, 3, n);
+    minus_hat(&mut block, 3, 0, n);
     block
+}
+
+/// Adds `−v^` from a row and a column on.
+#[inline(always)]
+pub(super) fn minus_hat<R: Real>(block: &mut Square<R>, r: usize, c: usize, v: Vec3<R>) {
+    block[r][c + 1] += v.z;
+    block[r][c + 2] -= v.y;
+    block[r + 1][c] -= v.z;
+    block[r + 1][c + 2] += v.x;
+    block[r + 2][c] += v.y;
+    block[r + 2][c + 1] -= v.x;
 }
 
 /// The drag on a node that turns and shifts: `|η + θ × p|² + TURNING |θ|²`.
@@ -188,11 +194,14 @@ fn component<R: Real>(v: Vec3<R>, i: usize) -> R {
     Vector::parts(v)[i]
 }
 
-/// Solves the six equations for eight right-hand sides, in place, without interchange: the signs of the pivots are wanted, and where all are
+/// Solves the six equations for as many right-hand sides, in place, without interchange: the signs of the pivots are wanted, and where all are
 /// positive it is not needed.
 #[inline(always)]
-fn reduce<R: Real>(left: &mut Square<R>, right: &mut Block<R>, inertia: &mut Inertia<R>) {
-    let size = (0..6).fold(R::zero(), |sum, k| sum + left[k][k].abs());
+fn reduce<R: Real>(left: &mut Square<R>, right: &mut Block<R>, columns: usize, inertia: &mut Inertia<R>) {
+    let mut size = R::zero();
+    for k in 0..6 {
+        size += left[k][k].abs();
+    }
     let smallest = size * R::splat(SMALLEST_PIVOT);
     let (one, none) = (R::one(), R::zero());
     let mut scales = [none; 6];
@@ -204,22 +213,46 @@ fn reduce<R: Real>(left: &mut Square<R>, right: &mut Block<R>, inertia: &mut Ine
         scales[k] = one / pivot;
         for i in k + 1..6 {
             let factor = left[i][k] * scales[k];
+            left[i][k] = factor;
             for c in k + 1..6 {
                 left[i][c] -= left[k][c] * factor;
             }
-            for c in 0..8 {
-                right[i][c] -= right[k][c] * factor;
+            if R::LANES == 1 {
+                for c in 0..8 {
+                    right[i][c] -= right[k][c] * factor;
+                }
             }
         }
     }
-    for k in (0..6).rev() {
-        for c in 0..8 {
-            right[k][c] = right[k][c] * scales[k];
-        }
-        for i in 0..k {
+    if R::LANES == 1 {
+        for k in (0..6).rev() {
             for c in 0..8 {
-                right[i][c] -= right[k][c] * left[i][k];
+                right[k][c] = right[k][c] * scales[k];
             }
+            for i in 0..k {
+                for c in 0..8 {
+                    right[i][c] -= right[k][c] * left[i][k];
+                }
+            }
+        }
+        return;
+    }
+    // A number alone takes a row to a register; where each has one, a column stays in six of them.
+    for c in 0..columns {
+        let mut x = [right[0][c], right[1][c], right[2][c], right[3][c], right[4][c], right[5][c]];
+        for k in 0..6 {
+            for i in k + 1..6 {
+                x[i] -= x[k] * left[i][k];
+            }
+        }
+        for k in (0..6).rev() {
+            x[k] = x[k] * scales[k];
+            for i in 0..k {
+                x[i] -= x[k] * left[i][k];
+            }
+        }
+        for k in 0..6 {
+            right[k][c] = x[k];
         }
     }
 }
@@ -228,21 +261,42 @@ fn reduce<R: Real>(left: &mut Square<R>, right: &mut Block<R>, inertia: &mut Ine
 #[inline(always)]
 fn product<R: Real, const COLUMNS: usize>(a: &Square<R>, b: &[[R; COLUMNS]; 6]) -> [[R; COLUMNS]; 6] {
     let mut out = [[R::zero(); COLUMNS]; 6];
-    for (out, a) in out.iter_mut().zip(a) {
-        for c in 0..COLUMNS {
-            let term = |k: usize| b[k][c] * a[k];
-            out[c] = (term(0) + term(1)) + (term(2) + term(3)) + (term(4) + term(5));
-        }
-    }
+    multiply(a, b, COLUMNS, &mut out);
     out
 }
 
+/// The same in place, of the first columns.
+#[inline(always)]
+fn multiply<R: Real, const COLUMNS: usize>(
+    a: &Square<R>,
+    b: &[[R; COLUMNS]; 6],
+    columns: usize,
+    out: &mut [[R; COLUMNS]; 6],
+) {
+    if R::LANES == 1 {
+        for (out, a) in out.iter_mut().zip(a) {
+            for c in 0..COLUMNS {
+                let term = |k: usize| b[k][c] * a[k];
+                out[c] = (term(0) + term(1)) + (term(2) + term(3)) + (term(4) + term(5));
+            }
+        }
+        return;
+    }
+    for c in 0..columns {
+        let x = [b[0][c], b[1][c], b[2][c], b[3][c], b[4][c], b[5][c]];
+        for (out, a) in out.iter_mut().zip(a) {
+            out[c] = (x[0] * a[0] + x[1] * a[1]) + (x[2] * a[2] + x[3] * a[3]) + (x[4] * a[4] + x[5] * a[5]);
+        }
+    }
+}
+
+#[inline(always)]
 fn transposed<R: Real>(a: &Square<R>) -> Square<R> {
     core::array::from_fn(|r| core::array::from_fn(|c| a[c][r]))
 }
 
 /// Turns a held node's equations into such for its free displacements; those that are fixed are zero.
-#[inline(never)]
+#[inline(always)]
 fn restrict<R: Real>(hold: &Hold<R>, pivot: &mut Square<R>, right: &mut Block<R>) {
     let t = transposed(&hold.free);
     *right = product(&t, right);
@@ -253,10 +307,4 @@ fn restrict<R: Real>(hold: &Hold<R>, pivot: &mut Square<R>, right: &mut Block<R>
         }
         pivot[r][r] += hold.fixed[r];
     }
-}
-
-/// From the free displacements of a held node to the variation of its frame.
-#[inline(never)]
-fn expand<R: Real>(hold: &Hold<R>, follow: &mut Block<R>) {
-    *follow = product(&hold.free, follow);
 }
