@@ -236,6 +236,8 @@ impl EndState {
                 next.pose.position += end.axis(3 + i) * step[3 + i];
             }
         }
+        // A search that goes far along a rail, and comes back, would bring the round-off of there with it.
+        next.pose.position = held_place(end, next.pose.position);
         match end.turns() {
             Turns::Fixed => {}
             Turns::Free => {
@@ -282,13 +284,22 @@ pub(crate) fn meet(end: &Support, pose: &Pose) -> Pose {
             met.rotation = end.pose.rotation * turn.to_matrix();
         }
     }
-    if end.fixed[3..].contains(&true) {
-        let mut place = end.shift_axes.transpose_mul(pose.position);
-        let held = end.shift_axes.transpose_mul(end.pose.position);
-        (0..3).filter(|i| end.fixed[3 + i]).for_each(|i| place[i] = held[i]);
-        met.position = if end.holds_position() { end.pose.position } else { end.shift_axes * place };
-    }
+    met.position = held_place(end, pose.position);
     met
+}
+
+/// A place shifted so that what an end fixes of it is met.
+fn held_place(end: &Support, position: Vec3) -> Vec3 {
+    if end.holds_position() {
+        return end.pose.position;
+    }
+    if !end.fixed[3..].contains(&true) {
+        return position;
+    }
+    let mut place = end.shift_axes.transpose_mul(position);
+    let held = end.shift_axes.transpose_mul(end.pose.position);
+    (0..3).filter(|i| end.fixed[3 + i]).for_each(|i| place[i] = held[i]);
+    end.shift_axes * place
 }
 
 /// A rotation matrix without the round-off that products gather.

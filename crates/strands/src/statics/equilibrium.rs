@@ -8,6 +8,7 @@
 use super::boundary::{EndState, borne, meet, renormalised};
 use super::march::{Record, Section, march, turned};
 use super::nodal::{Distance, take_strains};
+use super::path::MOST_STEPS;
 use super::problem::{Problem, Stretch, Support};
 use super::shooting::{Outcome, Search, Workspace};
 use super::solution::{Guess, Method, Scheme, Settings, Solution, SolveReport};
@@ -63,6 +64,8 @@ const MOST_DRAG: f64 = 1e15;
 pub(super) const MUCH_STIFFER: f64 = 100.0;
 /// The drag against which a rod leaves an unstable equilibrium, over what would hold it there.
 const HARDLY_HELD: f64 = 1.1;
+/// A node moves so little in one step that many are needed: so many are allowed for each iteration that a search may take.
+const STEPS_OF_ITERATION: usize = 8;
 /// Drag below this is left away: a shift by a tenth of the length would meet less force than a hair's weight.
 const LEAST_DRAG: f64 = 1e-3;
 /// What is left of it, over the [`strength`], so that a rod that is free to turn as a whole stays where it is.
@@ -82,7 +85,7 @@ pub(crate) fn from_rest(
     let on = |problem: &Problem, workspace: &mut Workspace, report: &mut SolveReport| {
         from_state(problem, settings, workspace, report)
     };
-    let outcome = by_degrees(problem, &Mild::new(problem), laid_out, on, workspace, report);
+    let outcome = by_degrees(problem, &Mild::new(problem), settings, laid_out, on, workspace, report);
     found(problem, outcome, workspace)
 }
 
@@ -142,6 +145,9 @@ const HARD_LOAD: f64 = 100.0;
 const HARD_SPARE: f64 = 0.05;
 /// Less than this is none: the rod has to stretch.
 const LEAST_SPARE: f64 = 1e-9;
+/// The first step of the way from the mild problem to the hard one, and that below which none is made smaller.
+const FIRST_STEP: f64 = 0.25;
+const SMALLEST_STEP: f64 = 1e-3;
 
 impl Mild {
     pub fn new(problem: &Problem) -> Self {
@@ -183,6 +189,7 @@ impl Mild {
 pub(crate) fn by_degrees(
     problem: &Problem,
     mild: &Mild,
+    settings: &Settings,
     laid_out: impl Fn(&Problem, &mut Workspace, &mut SolveReport) -> Outcome,
     on: impl Fn(&Problem, &mut Workspace, &mut SolveReport) -> Outcome,
     workspace: &mut Workspace,
@@ -197,7 +204,9 @@ pub(crate) fn by_degrees(
     if outcome != Outcome::Converged {
         return outcome;
     }
-    let (mut at, mut step) = (0.0, 0.25);
+    let (mut at, mut step) = (0.0, FIRST_STEP);
+    let smallest = SMALLEST_STEP.max(settings.halved(FIRST_STEP));
+    let most = report.path_steps + MOST_STEPS;
     let mut reached = workspace.record.clone();
     while outcome == Outcome::Converged && at < 1.0 {
         let next = f64::min(at + step, 1.0);
@@ -207,12 +216,16 @@ pub(crate) fn by_degrees(
         if outcome == Outcome::Converged {
             (at, step) = (next, 1.5 * step);
             reached.clone_from(&workspace.record);
-            continue;
-        }
-        workspace.record.clone_from(&reached);
-        if step > 1e-3 {
+        } else {
+            workspace.record.clone_from(&reached);
+            if step <= smallest {
+                return outcome;
+            }
             step *= 0.4;
             outcome = Outcome::Converged;
+        }
+        if report.path_steps >= most && at < 1.0 {
+            return Outcome::Stalled;
         }
     }
     outcome
@@ -450,7 +463,7 @@ fn relax(
     let (mut drag, mut lent) = (plan.drag * strength, lend * MOST_SLACK);
     let potential = has_potential(problem);
     let mut last = f64::INFINITY;
-    for _ in 0..plan.steps {
+    for _ in 0..plan.steps.min(settings.max_iterations.saturating_mul(STEPS_OF_ITERATION)) {
         if note(nodal.linearise(problem, simd, lent, record), report).is_none() {
             return Outcome::NotFinite;
         }

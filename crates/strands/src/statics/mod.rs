@@ -40,7 +40,7 @@ pub use solution::{
 };
 pub use stability::{UnstableMode, unstable_mode};
 
-use crate::math::{Pose, Vec3, Vec6};
+use crate::math::{Pose, Vec3, Vec6, Wrench};
 use crate::rod::{Kinematics, Order};
 use boundary::{EndState, loaded_start};
 use march::Record;
@@ -506,9 +506,16 @@ impl Solution {
     /// moments about the world's origin, those of the forces' levers too, and of that force across the rod's length. Round-off, whatever the
     /// number of elements.
     pub fn imbalance(&self, problem: &Problem) -> f64 {
+        let loads = &problem.loads;
+        // Over the largest number of all, so that no square overflows.
+        let given = loads.world.iter().chain(&loads.body).map(|load| load.max_abs());
+        let pulled = loads.pulls().iter().map(|pull| pull.tension.abs());
+        let borne = self.reactions.iter().map(|held| Wrench::new(held.moment, held.force).max_abs());
+        let largest = given.chain(pulled).chain(borne).fold(f64::MIN_POSITIVE, f64::max);
         let (mut force, mut moment) = (Vec3::ZERO, Vec3::ZERO);
         let (mut force_size, mut moment_size) = (f64::MIN_POSITIVE, f64::MIN_POSITIVE);
         let mut add = |f: Vec3, m: Vec3, at: Vec3| {
+            let (f, m) = (f * (1.0 / largest), m * (1.0 / largest));
             let lever = at.cross(f);
             force += f;
             moment += m + lever;
@@ -517,7 +524,7 @@ impl Solution {
             moment_size = moment_size.max(m.norm()).max(lever.norm());
         };
         for (i, pose) in self.poses.iter().enumerate() {
-            let (world, body) = (problem.loads.in_world(i, pose.position), problem.loads.body[i]);
+            let (world, body) = (loads.in_world(i, pose.position), loads.body[i]);
             add(world.linear, world.angular, pose.position);
             add(pose.rotation * body.linear, pose.rotation * body.angular, pose.position);
         }

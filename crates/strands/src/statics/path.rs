@@ -20,7 +20,7 @@ const FIRST_STEP: f64 = 0.25;
 /// Iterations that a search on the way may take before the step counts as too long.
 const ITERATIONS_ON_THE_WAY: usize = 12;
 /// Steps after which a walk is given up: it would take many times longer than from elsewhere, or than a user waits.
-const MOST_STEPS: usize = 300;
+pub(crate) const MOST_STEPS: usize = 300;
 /// How far, in rad, one step may turn any part of the rod: more is a jump to another branch.
 const LARGEST_TURN_OF_A_STEP: f64 = 1.0;
 /// How many nodes are watched for that.
@@ -103,13 +103,14 @@ fn walk(
     workspace: &mut Workspace,
     report: &mut SolveReport,
 ) -> Search {
-    let on_the_way = Settings { max_iterations: ITERATIONS_ON_THE_WAY, ..*settings };
+    let on_the_way =
+        Settings { max_iterations: ITERATIONS_ON_THE_WAY.min(settings.max_iterations), ..*settings };
     let mut family = problem.clone();
     set(&mut family, problem, from, change, 0.0);
     let start = EndState::from_guess(&family, from);
     let mut search = by(&family, settings, start, from.inverse, workspace, report);
     let (mut at, mut step) = (0.0, FIRST_STEP);
-    let smallest = 0.5_f64.powi(i32::try_from(settings.max_halvings).unwrap_or(i32::MAX)) * FIRST_STEP;
+    let smallest = settings.halved(FIRST_STEP);
     let mut reached = search.state;
     let mut index = morse_index(&family, workspace);
     let mut shape = sampled(workspace);
@@ -135,10 +136,14 @@ fn walk(
             if report.iterations - before <= 5 {
                 step *= 1.7;
             }
-        } else if step <= smallest || report.path_steps >= most {
-            return tried;
         } else {
+            if step <= smallest {
+                return tried;
+            }
             step *= 0.5;
+        }
+        if report.path_steps >= most && at < 1.0 {
+            return Search { outcome: Outcome::Stalled, ..tried };
         }
     }
     search

@@ -60,7 +60,7 @@ pub fn equilibria(
         return Err(FailureReason::NoEnergy);
     }
     let solver = Settings {
-        max_iterations: ITERATIONS,
+        max_iterations: ITERATIONS.min(settings.solver.max_iterations),
         method: Method::Auto,
         scheme: Scheme::Element,
         ..settings.solver

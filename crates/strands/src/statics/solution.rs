@@ -71,7 +71,7 @@ pub struct Settings {
     /// The residual at which a solution is accepted: turns in rad, shifts over the rod's length, forces and moments over
     /// `EI/L²` and `EI/L`.
     pub tolerance: f64,
-    /// How many Newton iterations one search may take.
+    /// How many Newton iterations one search may take. Where all frames move at once, a rod that is still on its way may take eight steps for each.
     pub max_iterations: usize,
     /// How many times a failed search may halve its step on the way from the last solution, or from rest.
     pub max_halvings: usize,
@@ -90,6 +90,13 @@ impl Default for Settings {
             max_halvings: 12,
             restart_from_rest: true,
         }
+    }
+}
+
+impl Settings {
+    /// A step that has been halved as often as it may be.
+    pub(crate) fn halved(&self, step: f64) -> f64 {
+        0.5_f64.powi(i32::try_from(self.max_halvings).unwrap_or(i32::MAX)) * step
     }
 }
 

@@ -5,11 +5,13 @@
 //! them all to where the start is held.
 
 use super::boundary::EndState;
-use super::march::march;
+use super::march::{Record, march};
 use super::problem::Problem;
 use super::shooting::{Outcome, Search, Workspace};
 use super::solution::{Guess, Settings, SolveReport};
-use crate::math::{Pose, Quat, Wrench};
+use crate::element::PointStrains;
+use crate::math::{Pose, Quat, Wrench, larger};
+use crate::rod::Rod;
 
 /// Why a problem is not the standard one; `None` where it is.
 pub(crate) fn not_standard(problem: &Problem) -> Option<&'static str> {
@@ -52,11 +54,25 @@ pub(crate) fn two_sweeps(
     let tip = workspace.record.poses[problem.rod.elements()];
     let state = EndState::from_guess(problem, &Guess::new(tip, Wrench::ZERO));
     let gap = base.between(&start.pose);
-    report.residual = Quat::from_matrix(gap.rotation)
-        .to_rotation_vector()
-        .max_abs()
-        .max(gap.position.max_abs() / problem.rod.length());
+    let missed = larger(
+        Quat::from_matrix(gap.rotation).to_rotation_vector().max_abs(),
+        gap.position.max_abs() / problem.rod.length(),
+    );
+    report.residual = larger(missed, f64::EPSILON * largest_turn(&problem.rod, &workspace.record));
     report.residual_history.push(report.residual);
-    let outcome = if report.residual.is_finite() { Outcome::Converged } else { Outcome::NotFinite };
+    let outcome = match report.residual {
+        residual if residual <= settings.tolerance => Outcome::Converged,
+        residual if residual.is_finite() => Outcome::Stalled,
+        _ => Outcome::NotFinite,
+    };
     Search { state, start, outcome, inverse: None }
+}
+
+/// By how much an element turns at most, rad: of a turn of so many times round, the last digits are lost, and with them where the rod points.
+fn largest_turn(rod: &Rod, record: &Record) -> f64 {
+    let turn = |(e, strains): (usize, &PointStrains)| {
+        let points = strains.iter().take(rod.points(e).len());
+        points.map(|strain| strain.angular.norm()).fold(0.0, larger) * rod.element_length(e)
+    };
+    record.strains.iter().enumerate().map(turn).fold(0.0, larger)
 }

@@ -43,7 +43,7 @@ pub(crate) fn from_rest(
         put_between_supports(problem, &mut workspace.record.poses);
         newton(problem, settings, LONGEST_FROM_AFAR, workspace, report)
     };
-    let outcome = by_degrees(problem, &mild, laid_out, on, workspace, report);
+    let outcome = by_degrees(problem, &mild, settings, laid_out, on, workspace, report);
     found(problem, outcome, workspace)
 }
 

@@ -111,3 +111,17 @@ fn the_multistep_scheme_keeps_its_order_where_the_lengths_of_the_elements_change
     let slope = slope_of(|pieces| fine.between(&at(pieces)).log().max_abs(), 128);
     assert!((slope - 2.0).abs() < 0.1, "slope {slope:.3}");
 }
+
+#[test]
+fn two_sweeps_that_lose_where_the_rod_points_are_no_solution() {
+    let mut problem = loaded(Kinematics::Cosserat, 7, Order::First, Frame::Body);
+    problem.loads = problem.loads.scaled(1e13);
+    for scheme in [Scheme::Element, Scheme::Multistep] {
+        let settings = Settings { scheme, ..Settings::default() };
+        let answer = solve(&problem, &settings, None, &mut Workspace::default());
+        let failure = answer.expect_err("a moment that turns an element by more than numbers can tell");
+        assert!(failure.nearest.is_finite(), "{scheme:?}: {failure}");
+        let report = failure.nearest.report;
+        assert!(report.residual.is_nan() || report.residual > settings.tolerance, "{report:?}");
+    }
+}

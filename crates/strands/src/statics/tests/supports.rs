@@ -101,6 +101,38 @@ fn a_collar_slides_and_a_hinge_turns_without_resistance() {
 }
 
 #[test]
+fn an_end_that_has_gone_far_along_its_rail_comes_back_onto_it() {
+    let mut problem = hanging(Kinematics::Cosserat, Order::Second);
+    let rest = *problem.rod.rest_poses().last().unwrap();
+    problem.end = Support::pinned(rest).sliding_along(Vec3::new(0.3, -0.5, 0.8));
+    let state = EndState::from_guess(&problem, &Guess::new(rest, Wrench::ZERO));
+    let [there, back] = [1e13, -1e13].map(|far| [0.0, 0.0, 0.0, 0.0, 0.0, far]);
+    let place = state.stepped(&problem, &there).stepped(&problem, &back).pose.position;
+    let away = problem.end.shift_axes.transpose_mul(place - problem.end.pose.position);
+    assert!(away.x.abs().max(away.y.abs()) < 1e-15, "{away:?}");
+}
+
+#[test]
+fn loads_of_which_the_squares_overflow_are_weighed_too() {
+    let mut problem = hanging(Kinematics::Cosserat, Order::Second);
+    let solution = solved(&problem, &Settings::default());
+    // A clamp bears whatever acts on it.
+    problem.loads.world[0].linear += Vec3::X * 1e250;
+    let solution = solve(&problem, &Settings::default(), Some(&solution.guess), &mut Workspace::default());
+    let imbalance = solution.unwrap().imbalance(&problem);
+    assert!(imbalance < 1e-12, "{imbalance:e}");
+}
+
+#[test]
+fn few_iterations_are_few_where_all_frames_move_at_once_too() {
+    let mut problem = hanging(Kinematics::Kirchhoff, Order::Second);
+    problem.end = Support::clamped(problem.rod.description().base);
+    let settings = Settings { method: Method::Equilibrium, max_iterations: 1, ..Settings::default() };
+    let failure = solve(&problem, &settings, None, &mut Workspace::default()).unwrap_err();
+    assert!(failure.nearest.report.iterations <= 6 * 8, "{}", failure.nearest.report.iterations);
+}
+
+#[test]
 fn shooting_and_nodes_that_are_none_are_refused() {
     let mut problem = hanging(Kinematics::Kirchhoff, Order::Second);
     let reason = |problem: &Problem, settings: &Settings| {
