@@ -1,12 +1,15 @@
 //! From many starts to what is near.
 //!
-//! Three kinds of start take turns, of which each finds what the others miss:
+//! Four kinds of start take turns, of which each finds what the others miss:
 //!
 //! - a *shape*: the rod bent and twisted at random between its supports. Newton's method on all frames at once wanders from there until it comes upon
-//!   an equilibrium, stable or not; damped, by multiple shooting, it goes to what is near or soon gives up, and costs a fifth;
+//!   an equilibrium, stable or not. Damped, by multiple shooting, it goes to what is near or soon gives up, and finds less;
 //! - a *shot*: a march from the rod's end with a random wrench, and multiple shooting from what it makes;
 //! - a shot from about the end of an equilibrium that is known, the more often the less its energy: its neighbours, most often those of the next
-//!   Morse index, have wrenches of its kind.
+//!   Morse index, have wrenches of its kind;
+//! - a shot from *among* the known, half of them: from where one would end if it were moved by a part of what two others differ by, or between two.
+//!   How far and which way to go is so learnt from what has been found (as in differential evolution, Storn & Price 1997, J. Glob. Optim.
+//!   11:341–359), whatever the stiffnesses and however large the wrenches are. These find most of what there is.
 
 use super::super::boundary::EndState;
 use super::super::equilibrium::{fall, lay_out};
@@ -26,6 +29,9 @@ const BENDS: [f64; 2] = [0.5, 10.0];
 const TWISTS: [f64; 2] = [0.5, 40.0];
 const FORCES: [f64; 2] = [0.5, 8.0];
 const CHANGES: [f64; 2] = [0.02, 0.7];
+/// Parts of a difference by which a known end is moved; between two, or so far beyond either of them.
+const PARTS: [f64; 2] = [0.05, 1.0];
+const BEYOND: f64 = 0.5;
 
 impl Seeker<'_> {
     pub fn try_starts(&mut self, starts: usize) {
@@ -42,9 +48,10 @@ impl Seeker<'_> {
         let (mut last, mut known) = (0, self.found.len());
         for start in 0..starts {
             match start % 6 {
-                1 | 4 if can_shoot => self.shoot(),
-                2 | 5 if can_shoot && !self.found.is_empty() => self.shoot_from_known(),
-                3 if can_march => {
+                1 if can_shoot => self.shoot(),
+                2 if can_shoot && !self.found.is_empty() => self.shoot_from_known(),
+                3.. if can_shoot && self.found.len() > 1 => self.shoot_among_known(),
+                3.. if can_march => {
                     self.lay_out_at_random();
                     self.nearest_by_shooting();
                 }
@@ -65,7 +72,13 @@ impl Seeker<'_> {
     /// Shoots from about what is known, for what only these elements show.
     pub fn shoot_some_more(&mut self, times: usize) {
         if self.problem.can_be_shot() && !self.found.is_empty() {
-            (0..times).for_each(|_| self.shoot_from_known());
+            for time in 0..times {
+                if time % 4 == 0 {
+                    self.shoot_from_known();
+                } else {
+                    self.shoot_among_known();
+                }
+            }
         }
     }
 
@@ -112,8 +125,7 @@ impl Seeker<'_> {
 
     /// Shoots from about the end of an equilibrium that is known.
     fn shoot_from_known(&mut self) {
-        let place = self.random.f64().powi(2) * self.found.len() as f64;
-        let Guess { pose, wrench, .. } = self.found[place as usize].solution.guess;
+        let Guess { pose, wrench, .. } = self.known_end();
         let scale = self.problem.rod.scale();
         let change = self.between(CHANGES);
         let moment = wrench.angular.norm().max(scale.moment) * change;
@@ -126,6 +138,25 @@ impl Seeker<'_> {
         let pose =
             Pose { rotation: pose.rotation * moved.rotation, position: pose.position + moved.position };
         self.shoot_from(&Guess::new(pose, wrench));
+    }
+
+    /// Shoots from an end between those of two known equilibria or a little beyond, or from one that is moved as two others differ.
+    fn shoot_among_known(&mut self) {
+        let [one, other, third] = [(); 3].map(|()| self.known_end());
+        let (from, part) = if self.random.bool() {
+            (one, self.random.f64() * (1.0 + 2.0 * BEYOND) - BEYOND)
+        } else {
+            (third, self.between(PARTS))
+        };
+        let moved = Pose::exp(from.pose.between(&other.pose).log() * part);
+        let wrench = one.wrench + (other.wrench - from.wrench) * part;
+        self.shoot_from(&Guess::new(one.pose.compose(&moved), wrench));
+    }
+
+    /// The end of an equilibrium that is known, rather one of low energy.
+    fn known_end(&mut self) -> Guess {
+        let place = self.random.f64().powi(2) * self.found.len() as f64;
+        self.found[place as usize].solution.guess
     }
 
     fn shoot_from(&mut self, guess: &Guess) {
