@@ -54,7 +54,8 @@ impl<R: Real> Kernel for Eliminate<'_, R> {
                     pivot[r][c] = -earlier[r][c];
                 }
             }
-            let right = &mut follows[i];
+            // Not in its place: of one rod it stays in registers.
+            let mut right = [[R::zero(); 8]; 6];
             add_drag(&mut pivot, places[i], drag);
             let acts = parts(acting(loads, links, i));
             for r in 0..6 {
@@ -73,10 +74,6 @@ impl<R: Real> Kernel for Eliminate<'_, R> {
                 for r in 0..6 {
                     right[r][..6].copy_from_slice(&upper[r]);
                 }
-            } else {
-                for row in right.iter_mut() {
-                    row[..6].fill(R::zero());
-                }
             }
             if i > 0 {
                 add(&mut pivot, &on_far(&links[i - 1]));
@@ -93,16 +90,17 @@ impl<R: Real> Kernel for Eliminate<'_, R> {
             let hold = holds.get(next_hold).filter(|hold| hold.node == i);
             if let Some(hold) = hold {
                 next_hold += 1;
-                restrict(hold, &mut pivot, right);
+                restrict(hold, &mut pivot, &mut right);
             }
-            reduce(&mut pivot, right, columns, &mut inertia);
+            reduce(&mut pivot, &mut right, columns, &mut inertia);
             if let Some(hold) = hold {
-                *right = product(&hold.free, right);
+                right = product(&hold.free, &right);
             }
             if let Some(after) = links.get(i) {
                 // L D⁻¹ U of the next pivot, and L D⁻¹ b of what acts.
-                multiply(&after.stiffness, right, columns, &mut earlier);
+                multiply(&after.stiffness, &right, columns, &mut earlier);
             }
+            follows[i] = right;
         }
         put_together(follows, ACTING, steps);
         other_steps.clear();
@@ -213,7 +211,6 @@ fn reduce<R: Real>(left: &mut Square<R>, right: &mut Block<R>, columns: usize, i
         scales[k] = one / pivot;
         for i in k + 1..6 {
             let factor = left[i][k] * scales[k];
-            left[i][k] = factor;
             for c in k + 1..6 {
                 left[i][c] -= left[k][c] * factor;
             }
@@ -221,6 +218,8 @@ fn reduce<R: Real>(left: &mut Square<R>, right: &mut Block<R>, columns: usize, i
                 for c in 0..8 {
                     right[i][c] -= right[k][c] * factor;
                 }
+            } else {
+                left[i][k] = factor;
             }
         }
     }
