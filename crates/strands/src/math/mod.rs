@@ -41,16 +41,21 @@ pub use vec3::Vec3;
 pub use vec6::{Strain, Stress, Vec6, Wrench};
 pub use vector::Vector;
 
-/// The larger of two numbers; NaN where either is, which [`f64::max`] would pass over.
+/// The larger of two numbers, lane by lane; NaN where either is, which [`f64::max`] would pass over.
 #[inline(always)]
-pub(crate) fn larger(a: f64, b: f64) -> f64 {
-    if a > b || a.is_nan() { a } else { b }
+pub(crate) fn larger<R: Real>(a: R, b: R) -> R {
+    let larger = R::select((b - a).at_most(0.0), a, b);
+    R::select(a.at_most(f64::INFINITY), larger, a)
 }
 
 /// The largest magnitude; NaN where any is.
 #[inline(always)]
-pub(crate) fn largest(values: &[f64; 6]) -> f64 {
-    values.iter().map(|x| x.abs()).fold(0.0, larger)
+pub(crate) fn largest<R: Real>(values: &[R; 6]) -> R {
+    let mut most = R::zero();
+    for value in values {
+        most = larger(most, value.abs());
+    }
+    most
 }
 
 #[cfg(test)]

@@ -93,6 +93,7 @@ pub(crate) trait Register: Wide {
 
 /// A rod alone, where registers hold no more.
 impl Register for f64 {
+    #[inline(never)]
     fn run<K: Kernel>(kernel: K) -> K::Output {
         kernel.run()
     }

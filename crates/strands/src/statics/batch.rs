@@ -2,21 +2,21 @@
 
 use super::boundary::meet;
 use super::equilibrium::{
-    HARDLY_ANY, MOST_SLACK, MUCH_STIFFER, SMALL_MOTION, WARM, finish, found, from_rest, least_lent, move_on,
-    put_between_supports,
+    HARDLY_ANY, MUCH_STIFFER, SMALL_MOTION, WARM, finish, found, from_rest, move_on, put_between_supports,
+    warmly_lent,
 };
 use super::fit::{fitted, unfit};
 use super::march::Record;
-use super::nodal::{Inertia, SideBySide};
+use super::nodal::{Inertia, SideBySide, of_lane};
 use super::problem::{Problem, Support};
 use super::shooting::{Outcome, Workspace};
 use super::solution::{Method, Scheme, Settings, Solution, SolveFailure, SolveReport};
-use super::stability::{NEUTRAL, has_potential, morse_index};
+use super::stability::{clear_of_round_off, has_potential, morse_index};
 use super::{solution, solve};
 use crate::load::NodalLoads;
 #[cfg(target_arch = "x86_64")]
 use crate::math::{Eight, Four};
-use crate::math::{Pose, Register, SimdLevel, Vec3, Vec6, Wide};
+use crate::math::{Pose, Register, SimdLevel, Vec6, Wide};
 use crate::rod::Order;
 use std::borrow::Cow;
 use thiserror::Error;
@@ -178,18 +178,16 @@ impl Batch {
             let settings = all_at_once(settings);
             let solution = solve(problem, &settings, None, &mut batch.workspace)
                 .map_err(|failure| BatchError::Unsolved { rod, failure: Box::new(failure) })?;
-            batch.sides[rod / lanes].put_loads(rod % lanes, problem);
             batch.sides[rod / lanes].put_state(rod % lanes, &batch.workspace.record);
-            let mut state = State {
+            // All is new: it is looked at before it is followed.
+            batch.states.push(State {
                 report: solution.report,
                 solved: true,
-                changed: false,
+                changed: true,
                 load_size: 0.0,
                 potential: false,
                 alone: false,
-            };
-            state.look_at(problem);
-            batch.states.push(state);
+            });
         }
         Ok(batch)
     }
@@ -356,14 +354,11 @@ struct Side<R> {
     rods: SideBySide<R>,
     /// Of which rods the system was last solved at a solution.
     answers: [bool; MOST_LANES],
-    /// Where the axes of each began when its state was kept.
-    origins: [Vec3; MOST_LANES],
 }
 
 impl<R: Register> Side<R> {
     fn new(problems: &[Problem]) -> Self {
-        let (answers, origins) = ([false; MOST_LANES], [Vec3::ZERO; MOST_LANES]);
-        Self { rods: SideBySide::new(problems), answers, origins }
+        Self { rods: SideBySide::new(problems), answers: [false; MOST_LANES] }
     }
 
     /// Moves the rods on as they answer to how their ends have moved, and puts those between their supports anew that have been changed otherwise
@@ -386,7 +381,7 @@ impl<R: Register> Side<R> {
             }
         }
         if led.contains(&true) {
-            let moves = R::from_lanes(|lane| f64::from(led[lane.min(problems.len() - 1)]));
+            let moves = R::from_lanes(|lane| f64::from(*of_lane(&led[..problems.len()], lane)));
             self.rods.follow_ends(problems, &motions, moves);
         }
         self.answers = [false; MOST_LANES];
@@ -404,7 +399,7 @@ impl<R: Register> Beside for Side<R> {
     }
 
     fn take_back(&mut self, lane: usize) {
-        self.rods.take_back(lane, self.origins[lane]);
+        self.rods.take_back(lane);
         self.answers[lane] = false;
     }
 
@@ -426,19 +421,15 @@ impl<R: Register> Beside for Side<R> {
         workspace: &mut Workspace,
     ) {
         self.rods.keep();
-        (0..problems.len()).for_each(|lane| self.origins[lane] = self.rods.origin(lane));
         self.lead(problems, states, workspace);
-        let state = |lane: usize| &states[lane.min(states.len() - 1)];
         let force = self.rods.largest_force();
-        let strength = R::from_lanes(|lane| 1.0 + state(lane).load_size + force.number(lane));
-        let least =
-            R::from_lanes(|lane| least_lent(&problems[lane.min(problems.len() - 1)], strength.number(lane)));
+        let strength = R::from_lanes(|lane| 1.0 + of_lane(states, lane).load_size + force.number(lane));
         let lent = |residual: f64, lane: usize| {
-            (WARM.lent / strength.number(lane) * residual.min(MOST_SLACK)).max(least.number(lane))
+            warmly_lent(of_lane(problems, lane), strength.number(lane), residual)
         };
         // A rod that drops out stays where it is.
-        let mut keeps_up = R::from_lanes(|lane| f64::from(!state(lane).alone));
-        let mut lends = R::from_lanes(|lane| lent(MOST_SLACK, lane));
+        let mut keeps_up = R::from_lanes(|lane| f64::from(!of_lane(states, lane).alone));
+        let mut lends = R::from_lanes(|lane| lent(f64::INFINITY, lane));
         for step in 1..=MOST_STEPS {
             let residual = self.rods.linearise(problems, lends);
             let keeping = |lane: usize| keeps_up.number(lane) > 0.5;
@@ -455,7 +446,6 @@ impl<R: Register> Beside for Side<R> {
                 state.report.iterations += usize::from(!near);
                 state.report.factorisations += 1;
             }
-            let state = |lane: usize| &states[lane.min(states.len() - 1)];
             if !near {
                 lends = R::from_lanes(|lane| lent(residual.number(lane), lane));
                 keeps_up = upright(keeps_up, &self.rods.solve(R::zero()));
@@ -464,16 +454,17 @@ impl<R: Register> Beside for Side<R> {
             }
             // Stable against all but round-off.
             let round_off = self.rods.round_off();
-            let clear = R::from_lanes(|lane| round_off.number(lane).max(NEUTRAL * strength.number(lane)));
-            let drag =
-                R::from_lanes(
-                    |lane| if state(lane).potential { -clear.number(lane) } else { clear.number(lane) },
-                );
+            let potential = |lane: usize| of_lane(states, lane).potential;
+            let clear =
+                R::from_lanes(|lane| clear_of_round_off(round_off.number(lane), strength.number(lane)));
+            let against =
+                |lane: usize| if potential(lane) { -clear.number(lane) } else { clear.number(lane) };
+            let drag = R::from_lanes(against);
             keeps_up = upright(keeps_up, &self.rods.solve(drag));
             let along = self.rods.stiffness_along_step();
             let newtons = |lane: usize| {
                 keeps_up.number(lane) < 0.5
-                    || state(lane).potential && along.number(lane) > MUCH_STIFFER * clear.number(lane)
+                    || potential(lane) && along.number(lane) > MUCH_STIFFER * clear.number(lane)
             };
             if !(0..R::LANES).all(newtons) {
                 let drag = strength * R::splat(HARDLY_ANY);

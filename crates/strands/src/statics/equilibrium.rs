@@ -24,7 +24,7 @@ pub(super) struct Plan {
     /// The drag at first, over `EI/L³`.
     drag: f64,
     /// The compliance against shifts lent to it for each unit of slack, over `L³/EI`.
-    pub(super) lent: f64,
+    lent: f64,
     /// How far, in rad and half lengths, a node may move in one step.
     pub(super) stride: f64,
     /// Steps after which another plan is tried.
@@ -45,7 +45,7 @@ const PLANS: [Plan; 6] = [
 pub(super) const WARM: Plan = Plan { bend: Vec3::ZERO, drag: 0.0, lent: 1e-3, stride: 0.5, steps: 100 };
 
 /// The compliance lent at most, over that for one unit of slack.
-pub(super) const MOST_SLACK: f64 = 3.0;
+const MOST_SLACK: f64 = 3.0;
 /// The least that is lent to an element, over `L³/EI`: were it any stiffer, round-off in its stiffness would decide the signs of the pivots.
 const LEAST_LENT: f64 = 1e-12;
 /// The least that is lent to all, over `L³/EI`, by Newton's method alone, and elsewhere over the [`strength`]: close to where the rod loses its
@@ -313,7 +313,7 @@ pub(crate) fn nearest(
     let simd = *simd;
     let mut outcome = Outcome::Stalled;
     let lend = WARM.lent / (1.0 + problem.load_size());
-    let lent = |residual: f64| (lend * residual.min(MOST_SLACK)).max(STEADY_LENT);
+    let lent = |residual: f64| lent_for(lend, residual, STEADY_LENT);
     // From close by little is lent from the first step on.
     let first = nodal.linearise(problem, simd, lent(MOST_SLACK), record);
     let mut residual = first.map_or(f64::NAN, |distance| distance.residual());
@@ -470,7 +470,7 @@ fn relax(
         let residual = report.residual;
         if residual <= settings.tolerance {
             // It may rest only because nothing pushes it off a ridge.
-            let clear = clear_of_round_off(nodal, strength);
+            let clear = clear_of_round_off(nodal.round_off(), strength);
             report.factorisations += 1;
             let sure = nodal.solve(simd, if potential { -clear } else { clear }) == Some(0);
             let down = if sure { None } else { way_down(problem, simd, nodal, variation, record) };
@@ -491,7 +491,7 @@ fn relax(
             last = f64::INFINITY;
             continue;
         }
-        lent = (lend * residual.min(MOST_SLACK)).max(least_lent(problem, strength));
+        lent = lent_for(lend, residual, least_lent(problem, strength));
         loop {
             report.factorisations += 1;
             match nodal.solve(simd, drag) {
@@ -499,7 +499,7 @@ fn relax(
                 _ if drag > MOST_DRAG => return Outcome::Stalled,
                 _ => {
                     // It may be round-off.
-                    let clear = clear_of_round_off(nodal, strength);
+                    let clear = clear_of_round_off(nodal.round_off(), strength);
                     drag = if drag < clear { clear } else { (drag * MORE_DRAG).max(SOME_DRAG * strength) };
                 }
             }
@@ -526,8 +526,18 @@ fn relax(
     Outcome::Stalled
 }
 
+/// What is lent by [`WARM`] to all elements of a rod of that strength.
+pub(super) fn warmly_lent(problem: &Problem, strength: f64, residual: f64) -> f64 {
+    lent_for(WARM.lent / strength, residual, least_lent(problem, strength))
+}
+
+/// What is lent by so much for a unit of slack.
+fn lent_for(lend: f64, residual: f64, least: f64) -> f64 {
+    (lend * residual.min(MOST_SLACK)).max(least)
+}
+
 /// The least that is lent to all elements together.
-pub(super) fn least_lent(problem: &Problem, strength: f64) -> f64 {
+fn least_lent(problem: &Problem, strength: f64) -> f64 {
     (LEAST_LENT * problem.rod.elements() as f64).max(STEADY_LENT / strength)
 }
 

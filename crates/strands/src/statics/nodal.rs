@@ -22,14 +22,14 @@ pub(crate) use elimination::Inertia;
 use elimination::{Block, Eliminate, Square, pair, parts};
 pub(crate) use second_variation::SecondVariation;
 use second_variation::TURNING;
-pub(crate) use side_by_side::SideBySide;
+pub(crate) use side_by_side::{SideBySide, of_lane};
 
 use super::boundary::{displacements, displacements_slope, meet};
 use super::march::Record;
 use super::problem::Problem;
 use crate::element::{self, DiagonalPoint, Resistance, diagonal_resistance};
 use crate::math::{
-    Kernel, Lanes, Mat3, Mat6, Pose, Real, SimdLevel, Vec3, Vec6, Wrench, dispatch, larger, largest,
+    Kernel, Lanes, Mat3, Mat6, Pose, Real, SimdLevel, Vec3, Vec6, Wide, Wrench, dispatch, larger, largest,
 };
 use crate::rod::{Order, Rod};
 
@@ -224,11 +224,11 @@ impl Nodal {
 
     /// By what a node is out of balance, about itself, without what its hold takes.
     fn out_of_balance(&self, node: usize) -> Wrench {
-        let force = self.imbalance(node);
-        match self.holds.iter().find(|hold| hold.node == node) {
-            Some(hold) => hold.along_free(force),
-            None => Wrench::new(force.angular - self.places[node].cross(force.linear), force.linear),
-        }
+        out_of_balance(
+            self.imbalance(node),
+            self.places[node],
+            self.holds.iter().find(|hold| hold.node == node),
+        )
     }
 
     /// Takes for the other right-hand side how what acts changes on the way to another problem (`step` long), whose supports `moved` meets
@@ -273,44 +273,12 @@ impl Nodal {
         self.other_pulls.clear();
     }
 
-    /// How a node turns (rad) and shifts (over the length) by a step in the fixed axes.
-    pub fn motion(&self, node: usize, step: &Vec6) -> Vec6 {
-        Vec6::new(step.angular, step.linear + step.angular.cross(self.places[node]))
-    }
-
     /// Solves for a step against a drag (over `EI/L³`, of all nodes together). Gives how many pivots are negative, or `None` where one
     /// vanishes.
     pub fn solve(&mut self, level: SimdLevel, drag: f64) -> Option<usize> {
         let drag = drag / self.links.len() as f64;
         let Inertia { negative, vanished } = dispatch(level, Eliminate { nodal: self, drag });
         (vanished == 0.0).then_some(negative as usize)
-    }
-
-    /// How far, as a drag, round-off may move the eigenvalues of the system that is solved (over `EI/L³`).
-    pub fn round_off(&self) -> f64 {
-        // The largest entry of a positive matrix lies on its diagonal.
-        let diagonal = |link: &Link<f64>| (0..6).fold(0.0, |max: f64, k| max.max(link.stiffness[k][k].abs()));
-        let stiffest = self.links.iter().fold(0.0, |max: f64, link| max.max(diagonal(link)));
-        ROUND_OFF * f64::EPSILON * stiffest * self.links.len() as f64
-    }
-
-    /// How stiff the rod is along the step (over `EI/L³`), by what acts on it, with the drag against which it was solved for.
-    pub fn stiffness_along_step(&self) -> f64 {
-        let (mut work, mut size) = (0.0, 0.0);
-        for (i, step) in self.steps.iter().enumerate() {
-            let motion = self.motion(i, step);
-            work += step.dot(self.acting(i));
-            size += TURNING * motion.angular.dot(motion.angular) + motion.linear.dot(motion.linear);
-        }
-        self.links.len() as f64 * work / size
-    }
-
-    /// The largest turn (rad) and shift (over the length) of a node in the step.
-    pub fn step_size(&self) -> f64 {
-        let size = |(step, at): (&Vec6, &Vec3)| {
-            larger(step.angular.norm(), 2.0 * (step.linear + step.angular.cross(*at)).norm())
-        };
-        self.steps.iter().zip(&self.places).map(size).fold(0.0, larger)
     }
 
     /// Makes the step one of the given size along a motion of the nodes, each in its own frame, and what takes up the slack.
@@ -333,16 +301,7 @@ impl Nodal {
         let last = self.links.len();
         let turn = end.rotation * motion.angular;
         let shift = end.rotation * motion.linear * (1.0 / self.axes.length);
-        self.steps[last] = Vec6::new(turn, shift - turn.cross(self.places[last]));
-        for i in (0..last).rev() {
-            let x = self.steps[i + 1].to_array();
-            let mut next = [0.0; 6];
-            for (next, row) in next.iter_mut().zip(&self.follows[i]) {
-                *next = (0..6).map(|k| row[k] * x[k]).sum();
-            }
-            self.steps[i] = Vec6::from(next);
-        }
-        self.links.iter_mut().for_each(|link| link.pull = Wrench::ZERO);
+        self.answer_to_end(Vec6::new(turn, shift - turn.cross(self.places[last])));
     }
 
     /// Forgets what it was last solved for.
@@ -384,7 +343,7 @@ impl Kernel for Take<'_> {
         for (e, link) in nodal.links.iter().enumerate() {
             let far = axes.frame(&state.poses[e + 1]);
             let change = link.change(nodal.steps[e], nodal.steps[e + 1], part, &far);
-            state.wrenches[e] += Wrench::new(change.angular * axes.moment, change.linear * axes.force);
+            state.wrenches[e] += axes.in_units(change);
         }
         for (i, pose) in state.poses.iter_mut().enumerate() {
             let moved = along_screw(nodal.steps[i], part, nodal.places[i]);
@@ -425,6 +384,73 @@ impl<R: Real> Link<R> {
 }
 
 impl<R: Real> Nodal<R> {
+    /// How a node turns (rad) and shifts (over the length) by a step in the fixed axes.
+    #[inline(always)]
+    pub fn motion(&self, node: usize, step: &Vec6<Vec3<R>>) -> Vec6<Vec3<R>> {
+        Vec6::new(step.angular, step.linear + step.angular.cross(self.places[node]))
+    }
+
+    /// How far, as a drag, round-off may move the eigenvalues of the system that is solved (over `EI/L³`).
+    #[inline(always)]
+    pub fn round_off(&self) -> R {
+        // The largest entry of a positive matrix lies on its diagonal.
+        let mut stiffest = R::zero();
+        for link in &self.links {
+            for k in 0..6 {
+                stiffest = larger(stiffest, link.stiffness[k][k].abs());
+            }
+        }
+        stiffest * R::splat(ROUND_OFF * f64::EPSILON * self.links.len() as f64)
+    }
+
+    /// How stiff the rod is along the step (over `EI/L³`), by what acts on it, with the drag against which it was solved for.
+    #[inline(always)]
+    pub fn stiffness_along_step(&self) -> R {
+        let (mut work, mut size) = (R::zero(), R::zero());
+        for (i, step) in self.steps.iter().enumerate() {
+            let motion = self.motion(i, step);
+            work += step.dot(self.acting(i));
+            size += motion.angular.dot(motion.angular) * R::splat(TURNING) + motion.linear.dot(motion.linear);
+        }
+        work * R::splat(self.links.len() as f64) / size
+    }
+
+    /// The largest turn (rad) and shift (over half the length) of a node in the step.
+    #[inline(always)]
+    pub fn step_size(&self) -> R {
+        let mut squared = R::zero();
+        for (i, step) in self.steps.iter().enumerate() {
+            let motion = self.motion(i, step);
+            squared = larger(squared, motion.angular.dot(motion.angular));
+            squared = larger(squared, motion.linear.dot(motion.linear) * R::splat(4.0));
+        }
+        squared.sqrt()
+    }
+
+    /// Makes the step the answer of the rod, as it was when the system was last solved, to a step of its end.
+    #[inline(always)]
+    fn answer_to_end(&mut self, end: Vec6<Vec3<R>>) {
+        let last = self.links.len();
+        self.steps[last] = end;
+        let mut x = parts(end);
+        for i in (0..last).rev() {
+            let mut next = [R::zero(); 6];
+            for (next, row) in next.iter_mut().zip(&self.follows[i]) {
+                *next = row[0] * x[0]
+                    + row[1] * x[1]
+                    + row[2] * x[2]
+                    + row[3] * x[3]
+                    + row[4] * x[4]
+                    + row[5] * x[5];
+            }
+            self.steps[i] = pair(next);
+            x = next;
+        }
+        for link in &mut self.links {
+            link.pull = Wrench::zero();
+        }
+    }
+
     /// The wrench that acts on a node, in the fixed axes; at a held node the opposite of the reaction.
     #[inline(always)]
     fn imbalance(&self, node: usize) -> Wrench<Vec3<R>> {
@@ -475,10 +501,41 @@ impl<R: Real> Hold<R> {
     }
 }
 
+/// By what acts on a node at a place, without what its hold takes.
+#[inline(always)]
+fn out_of_balance<R: Real>(acts: Wrench<Vec3<R>>, place: Vec3<R>, hold: Option<&Hold<R>>) -> Wrench<Vec3<R>> {
+    match hold {
+        Some(hold) => hold.along_free(acts),
+        None => Wrench::new(acts.angular - place.cross(acts.linear), acts.linear),
+    }
+}
+
 /// How the moment about the origin of a dead force at a place changes with the frame there: by its turn and by its shift.
-fn dead_moment_slope(at: Vec3, force: Vec3) -> [Mat3; 2] {
+#[inline(always)]
+fn dead_moment_slope<R: Real>(at: Vec3<R>, force: Vec3<R>) -> [Mat3<Vec3<R>>; 2] {
     let force = Mat3::hat(force);
-    [force * Mat3::hat(at), force.scaled(-1.0)]
+    [force * Mat3::hat(at), force.scaled(-R::one())]
+}
+
+/// The logarithms of poses, in lanes.
+#[inline(always)]
+fn logs<R: Wide>(poses: &Pose<Vec3<R>>) -> Vec6<Vec3<R>> {
+    let mut logs = poses.log_of_small_turn();
+    if !R::all(logs.angular.x.at_most(f64::INFINITY)) {
+        log_large_turns(poses, &mut logs);
+    }
+    logs
+}
+
+/// Where a turn is too large for the short way.
+#[cold]
+#[inline(never)]
+fn log_large_turns<R: Wide>(poses: &Pose<Vec3<R>>, logs: &mut Vec6<Vec3<R>>) {
+    for lane in 0..R::LANES {
+        if logs.angular.x.number(lane).is_nan() {
+            logs.put(lane, poses.lane(lane).log());
+        }
+    }
 }
 
 /// How a wrench at a place, its moment about the origin, changes with the frame there, where its moment about the place changes by so much with the
@@ -512,8 +569,7 @@ impl Elements {
         for i in 0..BATCH {
             let e = (first + i).min(rod.elements() - 1);
             let point = &points[e];
-            compliance.angular.put(i, point.compliance.angular * axes.moment);
-            compliance.linear.put(i, point.compliance.linear * (axes.force / axes.length));
+            compliance.put(i, axes.compliance(point.compliance));
             rest.put(i, axes.shift(point.rest));
             wrench.put(i, axes.wrench(state.wrenches[e]));
             let (a, b) = (&state.poses[e], &state.poses[e + 1]);
@@ -524,13 +580,7 @@ impl Elements {
         }
         let relative =
             Pose { rotation: near.transpose() * far.rotation, position: near.transpose_mul(apart) };
-        let mut x = relative.log_of_small_turn();
-        for i in 0..BATCH {
-            if x.angular.x.0[i].is_nan() {
-                x.put(i, relative.lane(i).log());
-            }
-        }
-        Self { compliance, rest, wrench, x, far }
+        Self { compliance, rest, wrench, x: logs(&relative), far }
     }
 }
 
@@ -641,6 +691,16 @@ impl Axes {
 
     fn wrench(&self, wrench: Wrench) -> Wrench {
         Wrench::new(wrench.angular * (1.0 / self.moment), wrench.linear * (1.0 / self.force))
+    }
+
+    /// A wrench, in N·m and N again.
+    fn in_units(&self, wrench: Wrench) -> Wrench {
+        Wrench::new(wrench.angular * self.moment, wrench.linear * self.force)
+    }
+
+    /// How an element yields, by its diagonal.
+    fn compliance(&self, diagonal: Vec6) -> Vec6 {
+        Vec6::new(diagonal.angular * self.moment, diagonal.linear * (self.force / self.length))
     }
 
     /// A variation in the axes of a frame, its shift over the length.

@@ -21,7 +21,7 @@ const RIGID_COMPLIANCE: f64 = 1e-7;
 /// By what is lent, over `L³/EI`, and the square of the strength, an eigenvalue may be too low: a column's is by `π²` times.
 const TOO_LOW: f64 = 10.0;
 /// An eigenvalue below this, over `EI/L³` and the [`strength`], is none: the rod may be free to turn about an axis, and then round-off decides its sign.
-pub(super) const NEUTRAL: f64 = 1e-6;
+const NEUTRAL: f64 = 1e-6;
 
 /// The Morse index of the equilibrium recorded in the workspace. `None` where follower loads or dead moments act on what can move or turn, which
 /// have no potential, where a pivot vanishes, and where an element is so long for what it carries that a way down may be its own.
@@ -33,7 +33,7 @@ pub(crate) fn morse_index(problem: &Problem, workspace: &mut Workspace) -> Optio
     let strength = strength(problem, record);
     let lent = rigid_compliance(strength);
     nodal.linearise(problem, *simd, lent, record)?;
-    let clear = clear_of_round_off(nodal, strength).max(TOO_LOW * lent * strength * strength);
+    let clear = clear_of_round_off(nodal.round_off(), strength).max(TOO_LOW * lent * strength * strength);
     let below = nodal.solve(*simd, -clear);
     if below == Some(0) {
         return below;
@@ -56,8 +56,8 @@ fn stiff(strength: f64) -> f64 {
 }
 
 /// The drag (over `EI/L³`) that round-off in the pivots of a linearised rod does not outweigh, nor a freedom to turn.
-pub(crate) fn clear_of_round_off(nodal: &Nodal, strength: f64) -> f64 {
-    nodal.round_off().max(NEUTRAL * strength)
+pub(crate) fn clear_of_round_off(round_off: f64, strength: f64) -> f64 {
+    round_off.max(NEUTRAL * strength)
 }
 
 /// The way down from an equilibrium that is not stable: the motion along which the energy falls most.

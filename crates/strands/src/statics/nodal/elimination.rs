@@ -4,7 +4,7 @@
 
 use super::second_variation::TURNING;
 use super::{Hold, Link, Nodal, acting};
-use crate::math::{Kernel, Mat3, Real, Vec3, Vec6, Vector};
+use crate::math::{Kernel, Mat3, Real, Register, Vec3, Vec6, Vector, Wrench};
 
 /// A pivot below this part of its block's diagonal is none.
 const SMALLEST_PIVOT: f64 = 1e-15;
@@ -31,7 +31,7 @@ pub(super) struct Eliminate<'a, R> {
     pub drag: R,
 }
 
-impl<R: Real> Kernel for Eliminate<'_, R> {
+impl<R: Register> Kernel for Eliminate<'_, R> {
     type Output = Inertia<R>;
 
     #[inline(always)]
@@ -44,15 +44,13 @@ impl<R: Real> Kernel for Eliminate<'_, R> {
             nodal;
         let columns = if others.is_empty() { OTHER } else { OTHER + 1 };
         let mut inertia = Inertia { negative: R::zero(), vanished: R::zero() };
-        // What the nodes before take from the pivot, and add to what acts.
+        // What the nodes before add to the pivot, and to what acts.
         let mut earlier = [[R::zero(); 8]; 6];
         let (mut next_hold, mut next_slope) = (0, 0);
         for i in 0..=n {
             let mut pivot = [[R::zero(); 6]; 6];
             for r in 0..6 {
-                for c in 0..6 {
-                    pivot[r][c] = -earlier[r][c];
-                }
+                pivot[r].copy_from_slice(&earlier[r][..6]);
             }
             // Not in its place: of one rod it stays in registers.
             let mut right = [[R::zero(); 8]; 6];
@@ -90,15 +88,21 @@ impl<R: Real> Kernel for Eliminate<'_, R> {
             let hold = holds.get(next_hold).filter(|hold| hold.node == i);
             if let Some(hold) = hold {
                 next_hold += 1;
-                restrict(hold, &mut pivot, &mut right);
+                // Few nodes are held: out of the way of the others' registers.
+                R::run(Restrict { hold, pivot: &mut pivot, right: &mut right });
             }
             reduce(&mut pivot, &mut right, columns, &mut inertia);
             if let Some(hold) = hold {
-                right = product(&hold.free, &right);
+                R::run(Expand { hold, follow: &mut right });
             }
             if let Some(after) = links.get(i) {
-                // L D⁻¹ U of the next pivot, and L D⁻¹ b of what acts.
+                // −L D⁻¹ U to the next pivot, and L D⁻¹ b to what acts.
                 multiply(&after.stiffness, &right, columns, &mut earlier);
+                for row in &mut earlier {
+                    for x in &mut row[..6] {
+                        *x = -*x;
+                    }
+                }
             }
             follows[i] = right;
         }
@@ -151,16 +155,21 @@ fn add<R: Real>(to: &mut Square<R>, block: &Square<R>) {
 #[inline(always)]
 fn on_far<R: Real>(link: &Link<R>) -> Square<R> {
     let mut block = link.stiffness;
-    let (m, n) = (link.carried.angular, link.carried.linear);
-    minus_hat(&mut block, 0, 0, m);
-    minus_hat(&mut block, 0, 3, n);
-    minus_hat(&mut block, 3, 0, n);
+    add_coadjoint(&mut block, link.carried);
     block
+}
+
+/// Adds `ad*(η) w` as a matrix of `η`, as [`coadjoint_by_strain`](crate::element::coadjoint_by_strain).
+#[inline(always)]
+pub(super) fn add_coadjoint<R: Real>(to: &mut Square<R>, w: Wrench<Vec3<R>>) {
+    minus_hat(to, 0, 0, w.angular);
+    minus_hat(to, 0, 3, w.linear);
+    minus_hat(to, 3, 0, w.linear);
 }
 
 /// Adds `−v^` from a row and a column on.
 #[inline(always)]
-pub(super) fn minus_hat<R: Real>(block: &mut Square<R>, r: usize, c: usize, v: Vec3<R>) {
+fn minus_hat<R: Real>(block: &mut Square<R>, r: usize, c: usize, v: Vec3<R>) {
     block[r][c + 1] += v.z;
     block[r][c + 2] -= v.y;
     block[r + 1][c] -= v.z;
@@ -295,15 +304,41 @@ fn transposed<R: Real>(a: &Square<R>) -> Square<R> {
 }
 
 /// Turns a held node's equations into such for its free displacements; those that are fixed are zero.
-#[inline(always)]
-fn restrict<R: Real>(hold: &Hold<R>, pivot: &mut Square<R>, right: &mut Block<R>) {
-    let t = transposed(&hold.free);
-    *right = product(&t, right);
-    let held = product(&t, &product(pivot, &hold.free));
-    for r in 0..6 {
-        for c in 0..6 {
-            pivot[r][c] = held[r][c] + hold.curved[r][c];
+struct Restrict<'a, R> {
+    hold: &'a Hold<R>,
+    pivot: &'a mut Square<R>,
+    right: &'a mut Block<R>,
+}
+
+impl<R: Real> Kernel for Restrict<'_, R> {
+    type Output = ();
+
+    #[inline(always)]
+    fn run(self) {
+        let Self { hold, pivot, right } = self;
+        let t = transposed(&hold.free);
+        *right = product(&t, right);
+        let held = product(&t, &product(pivot, &hold.free));
+        for r in 0..6 {
+            for c in 0..6 {
+                pivot[r][c] = held[r][c] + hold.curved[r][c];
+            }
+            pivot[r][r] += hold.fixed[r];
         }
-        pivot[r][r] += hold.fixed[r];
+    }
+}
+
+/// From the free displacements of a held node to the variation of its frame.
+struct Expand<'a, R> {
+    hold: &'a Hold<R>,
+    follow: &'a mut Block<R>,
+}
+
+impl<R: Real> Kernel for Expand<'_, R> {
+    type Output = ();
+
+    #[inline(always)]
+    fn run(self) {
+        *self.follow = product(&self.hold.free, self.follow);
     }
 }

@@ -8,11 +8,10 @@ use core::ops::Range;
 use super::super::boundary::{displacements, displacements_slope, meet};
 use super::super::march::Record;
 use super::super::problem::{Problem, Support};
-use super::elimination::{Eliminate, Inertia, Square, minus_hat, pair, parts};
-use super::second_variation::TURNING;
-use super::{Axes, Hold, Link, Nodal, ROUND_OFF, along_screw};
+use super::elimination::{Eliminate, Inertia, Square, add_coadjoint, parts};
+use super::{Axes, Hold, Link, Nodal, along_screw, dead_moment_slope, logs, out_of_balance};
 use crate::element::{Resistance, diagonal_resistance};
-use crate::math::{Kernel, Mat3, Pose, Real, Register, Vec3, Vec6, Wide, Wrench};
+use crate::math::{Kernel, Mat3, Pose, Real, Register, Vec3, Vec6, Wide, Wrench, larger, largest};
 
 /// As many rods as there are lanes, their states, and their linear systems. All in each rod's own fixed axes, in which lengths, forces and moments
 /// are numbers of order one.
@@ -28,7 +27,8 @@ pub(crate) struct SideBySide<R> {
     any_follower: bool,
     poses: Vec<Pose<Vec3<R>>>,
     wrenches: Vec<Wrench<Vec3<R>>>,
-    /// States that were kept.
+    /// States that were kept, and the axes that they were seen from.
+    kept_axes: Vec<Axes>,
     kept_poses: Vec<Pose<Vec3<R>>>,
     kept_wrenches: Vec<Wrench<Vec3<R>>>,
     system: Nodal<R>,
@@ -47,7 +47,7 @@ impl<R: Register> SideBySide<R> {
     /// Rods of order 2 with diagonal laws, of one number of elements, without their loads and states. Where there are fewer than lanes, the last one
     /// is taken again.
     pub fn new(problems: &[Problem]) -> Self {
-        let problem = |lane: usize| &problems[lane.min(problems.len() - 1)];
+        let problem = |lane: usize| of_lane(problems, lane);
         let n = problem(0).rod.elements();
         let axes: Vec<Axes> = (0..R::LANES)
             .map(|lane| {
@@ -62,12 +62,7 @@ impl<R: Register> SideBySide<R> {
             for (lane, axes) in axes.iter().enumerate() {
                 let rod = &problem(lane).rod;
                 let Some(points) = rod.diagonal_points() else { unreachable!("the law is diagonal") };
-                let compliance = points[e].compliance;
-                let scaled = Vec6::new(
-                    compliance.angular * axes.moment,
-                    compliance.linear * (axes.force / axes.length),
-                );
-                fixed.compliance.put(lane, scaled);
+                fixed.compliance.put(lane, axes.compliance(points[e].compliance));
                 fixed.rest.put(lane, axes.shift(points[e].rest));
                 fixed.part.put_number(lane, rod.element_length(e) / rod.length());
             }
@@ -82,6 +77,7 @@ impl<R: Register> SideBySide<R> {
             any_follower: false,
             poses: vec![Pose::IDENTITY.splat(); n + 1],
             wrenches: vec![Wrench::zero(); n],
+            kept_axes: Vec::new(),
             kept_poses: Vec::new(),
             kept_wrenches: Vec::new(),
             system: Nodal::default(),
@@ -123,14 +119,15 @@ impl<R: Register> SideBySide<R> {
 
     /// Keeps the states of all rods as they are.
     pub fn keep(&mut self) {
+        self.kept_axes.clone_from(&self.axes);
         self.kept_poses.clone_from(&self.poses);
         self.kept_wrenches.clone_from(&self.wrenches);
     }
 
     /// Gives one of the rods its kept state back.
-    pub fn take_back(&mut self, rod: usize, origin: Vec3) {
+    pub fn take_back(&mut self, rod: usize) {
         for lane in self.lanes_of(rod) {
-            self.axes[lane].origin = origin;
+            self.axes[lane] = self.kept_axes[lane];
             for (pose, kept) in self.poses.iter_mut().zip(&self.kept_poses) {
                 pose.put(lane, &kept.lane(lane));
             }
@@ -140,21 +137,15 @@ impl<R: Register> SideBySide<R> {
         }
     }
 
-    /// Where the axes of a rod begin.
-    pub fn origin(&self, rod: usize) -> Vec3 {
-        self.axes[rod].origin
-    }
-
     /// Gives the state of one of the rods, but for the strains.
     pub fn take_state(&self, lane: usize, state: &mut Record) {
         let axes = &self.axes[lane];
         state.fit(self.wrenches.len());
-        for (pose, wide) in state.poses.iter_mut().zip(&self.poses) {
-            *pose = axes.in_world(&wide.lane(lane));
+        for (to, pose) in state.poses.iter_mut().zip(self.poses(lane)) {
+            *to = pose;
         }
         for (wrench, wide) in state.wrenches.iter_mut().zip(&self.wrenches) {
-            let w = wide.lane(lane);
-            *wrench = Wrench::new(w.angular * axes.moment, w.linear * axes.force);
+            *wrench = axes.in_units(wide.lane(lane));
         }
     }
 
@@ -174,7 +165,7 @@ impl<R: Register> SideBySide<R> {
     pub fn linearise(&mut self, problems: &[Problem], lent: R) -> R {
         let slack = R::run(LineariseAll { side: self, lent });
         self.hold(problems);
-        R::run(Measure { side: self, slack })
+        R::run(Measure { system: &self.system, slack })
     }
 
     /// The free displacements of the nodes that are held, rod by rod.
@@ -211,17 +202,17 @@ impl<R: Register> SideBySide<R> {
 
     /// Of each rod [`Nodal::round_off`].
     pub fn round_off(&self) -> R {
-        R::run(RoundOff { system: &self.system })
+        R::run(Of { side: self, figure: Figure::RoundOff })
     }
 
     /// Of each rod [`Nodal::stiffness_along_step`].
     pub fn stiffness_along_step(&self) -> R {
-        R::run(AlongStep { system: &self.system })
+        R::run(Of { side: self, figure: Figure::StiffnessAlongStep })
     }
 
     /// The largest force that an element of each rod carries, over `EI/L²`.
     pub fn largest_force(&self) -> R {
-        R::run(LargestForce { wrenches: &self.wrenches })
+        R::run(Of { side: self, figure: Figure::LargestForce })
     }
 
     /// Takes the step of each rod, where its `moves` is one: as much of it as moves no node further than `stride`, or `whole` if it moves none
@@ -244,36 +235,27 @@ impl<R: Register> SideBySide<R> {
         let last = self.wrenches.len();
         let mut first = Vec6::zero();
         for lane in 0..R::LANES {
-            let motion = motions[lane.min(problems.len() - 1)];
+            let motion = motions[lane.min(self.rods - 1)];
             let (axes, end) = (&self.axes[lane], self.poses[last].lane(lane));
             let turn = end.rotation * motion.angular;
             let shift = end.rotation * motion.linear * (1.0 / axes.length);
             first.put(lane, Vec6::new(turn, shift - turn.cross(self.system.places[last].lane(lane))));
         }
-        self.system.links.iter_mut().for_each(|link| link.pull = Wrench::zero());
         R::run(Answer { system: &mut self.system, end: first });
         self.take(problems, f64::INFINITY, false, moves);
     }
 }
 
+/// What belongs to a lane of what there is for each rod: lanes beyond the rods repeat the last.
+pub(crate) fn of_lane<T>(rods: &[T], lane: usize) -> &T {
+    &rods[lane.min(rods.len() - 1)]
+}
+
 fn nth_support(problems: &[Problem], lane: usize, at: usize) -> Option<(usize, &Support)> {
-    problems[lane.min(problems.len() - 1)].supports().nth(at)
+    of_lane(problems, lane).supports().nth(at)
 }
 
-/// The larger of two numbers in each lane, not a number where either is.
-#[inline(always)]
-fn larger<R: Real>(a: R, b: R) -> R {
-    R::select((b - a).at_most(0.0), a, b) + a * R::zero()
-}
-
-/// The same with the largest part of a vector. Without closures, as all here: they are not always put in line, and must be for their instructions.
-#[inline(always)]
-fn largest<R: Real>(most: R, v: Vec6<Vec3<R>>) -> R {
-    let most = larger(larger(larger(most, v.angular.x.abs()), v.angular.y.abs()), v.angular.z.abs());
-    larger(larger(larger(most, v.linear.x.abs()), v.linear.y.abs()), v.linear.z.abs())
-}
-
-/// Nothing where it stays.
+/// Nothing where it stays. Without closures, as all here: they are not always put in line, and must be for their instructions.
 #[inline(always)]
 fn unless<R: Real>(stays: R::Mask, v: Vec6<Vec3<R>>) -> Vec6<Vec3<R>> {
     Vec6::new(unless_vector(stays, v.angular), unless_vector(stays, v.linear))
@@ -306,22 +288,16 @@ impl<R: Wide> Kernel for LineariseAll<'_, R> {
         );
         for (e, fixed) in elements.iter().enumerate() {
             let far = poses[e + 1];
-            let relative = poses[e].between(&far);
-            let mut x = relative.log_of_small_turn();
-            if !R::all(x.angular.x.at_most(f64::INFINITY)) {
-                log_of_large_turns(&relative, &mut x);
-            }
+            let x = logs(&poses[e].between(&far));
             let wrench = wrenches[e];
             let Resistance { stiffness, pull, slack } =
                 diagonal_resistance(fixed.compliance, fixed.rest, lent * fixed.part, x, wrench, &far);
-            worst = largest(worst, slack);
+            worst = larger(worst, largest(&parts(slack)));
             let link = &mut system.links[e];
-            for r in 0..6 {
-                for c in 0..6 {
-                    let column = &stiffness[r / 3][c / 3].cols[c % 3];
-                    link.stiffness[r][c] = [column.x, column.y, column.z][r % 3];
-                }
-            }
+            put_block(&mut link.stiffness, 0, 0, &stiffness[0][0]);
+            put_block(&mut link.stiffness, 0, 3, &stiffness[0][1]);
+            put_block(&mut link.stiffness, 3, 0, &stiffness[1][0]);
+            put_block(&mut link.stiffness, 3, 3, &stiffness[1][1]);
             link.carried = far.carry_wrench(wrench);
             link.pull = pull;
         }
@@ -333,9 +309,9 @@ impl<R: Wide> Kernel for LineariseAll<'_, R> {
             system.places.push(at);
             let mut acts = Wrench::new(load.angular + at.cross(load.linear), load.linear);
             let mut slope = [[zero; 6]; 6];
-            let force = Mat3::hat(load.linear);
-            put_block(&mut slope, 0, 0, &(force * Mat3::hat(at)));
-            put_block(&mut slope, 0, 3, &force.scaled(-R::one()));
+            let [by_turn, by_shift] = dead_moment_slope(at, load.linear);
+            put_block(&mut slope, 0, 0, &by_turn);
+            put_block(&mut slope, 0, 3, &by_shift);
             if *any_follower {
                 let carried = pose.carry_wrench(follower[i]);
                 acts += carried;
@@ -345,17 +321,6 @@ impl<R: Wide> Kernel for LineariseAll<'_, R> {
             system.load_slopes.push((i, slope));
         }
         worst
-    }
-}
-
-/// Where the turn of an element is too large for the short way.
-#[cold]
-#[inline(never)]
-fn log_of_large_turns<R: Wide>(relative: &Pose<Vec3<R>>, x: &mut Vec6<Vec3<R>>) {
-    for lane in 0..R::LANES {
-        if x.angular.x.number(lane).is_nan() {
-            x.put(lane, relative.lane(lane).log());
-        }
     }
 }
 
@@ -369,17 +334,9 @@ fn put_block<R: Real>(to: &mut Square<R>, row: usize, column: usize, block: &Mat
     }
 }
 
-/// Adds `ad*(η) w` as a matrix of `η`, as [`element::coadjoint_by_strain`](crate::element::coadjoint_by_strain).
-#[inline(always)]
-fn add_coadjoint<R: Real>(to: &mut Square<R>, w: Wrench<Vec3<R>>) {
-    minus_hat(to, 0, 0, w.angular);
-    minus_hat(to, 0, 3, w.linear);
-    minus_hat(to, 3, 0, w.linear);
-}
-
 /// Ends [`SideBySide::linearise`]: how far all are from equilibrium.
 struct Measure<'a, R> {
-    side: &'a SideBySide<R>,
+    system: &'a Nodal<R>,
     slack: R,
 }
 
@@ -388,77 +345,50 @@ impl<R: Real> Kernel for Measure<'_, R> {
 
     #[inline(always)]
     fn run(self) -> R {
-        let Self { side: SideBySide { system, .. }, slack } = self;
+        let Self { system, slack } = self;
         let (mut carried, mut imbalance) = (R::one(), R::zero());
         for link in &system.links {
-            carried = largest(carried, link.carried);
+            carried = larger(carried, largest(&parts(link.carried)));
         }
         let mut holds = system.holds.iter().peekable();
         for (node, place) in system.places.iter().enumerate() {
-            let acts = system.imbalance(node);
-            let about = match holds.next_if(|hold| hold.node == node) {
-                Some(hold) => hold.along_free(acts),
-                None => Wrench::new(acts.angular - place.cross(acts.linear), acts.linear),
-            };
-            imbalance = largest(imbalance, about);
+            let hold = holds.next_if(|hold| hold.node == node);
+            let about = out_of_balance(system.imbalance(node), *place, hold);
+            imbalance = larger(imbalance, largest(&parts(about)));
         }
         larger(imbalance / carried, slack * R::splat(system.links.len() as f64))
     }
 }
 
-struct RoundOff<'a, R> {
-    system: &'a Nodal<R>,
+/// A figure of each rod.
+struct Of<'a, R> {
+    side: &'a SideBySide<R>,
+    figure: Figure,
 }
 
-impl<R: Real> Kernel for RoundOff<'_, R> {
+enum Figure {
+    RoundOff,
+    StiffnessAlongStep,
+    LargestForce,
+}
+
+impl<R: Real> Kernel for Of<'_, R> {
     type Output = R;
 
     #[inline(always)]
     fn run(self) -> R {
-        let mut stiffest = R::zero();
-        for link in &self.system.links {
-            for k in 0..6 {
-                stiffest = larger(stiffest, link.stiffness[k][k].abs());
+        let SideBySide { system, wrenches, .. } = self.side;
+        match self.figure {
+            Figure::RoundOff => system.round_off(),
+            Figure::StiffnessAlongStep => system.stiffness_along_step(),
+            Figure::LargestForce => {
+                let mut squared = R::zero();
+                for wrench in wrenches {
+                    squared = larger(squared, wrench.linear.dot(wrench.linear));
+                }
+                squared.sqrt()
             }
         }
-        stiffest * R::splat(ROUND_OFF * f64::EPSILON * self.system.links.len() as f64)
-    }
-}
-
-struct AlongStep<'a, R> {
-    system: &'a Nodal<R>,
-}
-
-impl<R: Real> Kernel for AlongStep<'_, R> {
-    type Output = R;
-
-    #[inline(always)]
-    fn run(self) -> R {
-        let system = self.system;
-        let (mut work, mut size) = (R::zero(), R::zero());
-        for (i, (step, place)) in system.steps.iter().zip(&system.places).enumerate() {
-            let shift = step.linear + step.angular.cross(*place);
-            work += step.dot(system.acting(i));
-            size += step.angular.dot(step.angular) * R::splat(TURNING) + shift.dot(shift);
-        }
-        R::splat(system.links.len() as f64) * work / size
-    }
-}
-
-struct LargestForce<'a, R> {
-    wrenches: &'a [Wrench<Vec3<R>>],
-}
-
-impl<R: Real> Kernel for LargestForce<'_, R> {
-    type Output = R;
-
-    #[inline(always)]
-    fn run(self) -> R {
-        let mut squared = R::zero();
-        for wrench in self.wrenches {
-            squared = larger(squared, wrench.linear.dot(wrench.linear));
-        }
-        squared.sqrt()
     }
 }
 
@@ -479,13 +409,7 @@ impl<R: Real> Kernel for TakeAll<'_, R> {
         let (one, zero) = (R::one(), R::zero());
         let mut part = one;
         if stride.is_finite() {
-            let mut squared = zero;
-            for (step, place) in system.steps.iter().zip(&system.places) {
-                let shift = step.linear + step.angular.cross(*place);
-                squared = larger(squared, step.angular.dot(step.angular));
-                squared = larger(squared, shift.dot(shift) * R::splat(4.0));
-            }
-            let wanted = R::splat(stride) / squared.sqrt();
+            let wanted = R::splat(stride) / system.step_size();
             let within = (one - wanted).at_most(0.0);
             part = R::select(within, one, if whole { zero } else { wanted });
         }
@@ -512,19 +436,6 @@ impl<R: Real> Kernel for Answer<'_, R> {
 
     #[inline(always)]
     fn run(self) {
-        let Self { system, end } = self;
-        let last = system.links.len();
-        system.steps[last] = end;
-        let mut x = parts(end);
-        for i in (0..last).rev() {
-            let mut next = [R::zero(); 6];
-            for (next, row) in next.iter_mut().zip(&system.follows[i]) {
-                *next = (row[0] * x[0] + row[1] * x[1])
-                    + (row[2] * x[2] + row[3] * x[3])
-                    + (row[4] * x[4] + row[5] * x[5]);
-            }
-            system.steps[i] = pair(next);
-            x = next;
-        }
+        self.system.answer_to_end(self.end);
     }
 }
