@@ -562,15 +562,6 @@ impl<R: Real> Turned<R> {
             ),
         }
     }
-
-    /// The tangent seen from a frame in which the far node has the given pose.
-    #[inline(always)]
-    fn tangent_seen_from(&self, far: &Pose<Vec3<R>>) -> (Mat3<Vec3<R>>, Mat3<Vec3<R>>) {
-        let turn = far.rotation * self.turn;
-        let [a, b, c] = turn.cols;
-        let p = far.position;
-        (turn, far.rotation * self.shift + Mat3::from_cols(p.cross(a), p.cross(b), p.cross(c)))
-    }
 }
 
 /// [`flexibility`](super::flexibility) for order 2 and a diagonal law: from `h S`, the exponent, and the wrench through the far node.
@@ -622,9 +613,12 @@ pub(crate) fn diagonal_resistance<R: Real>(
     far: &Pose<Vec3<R>>,
 ) -> Resistance<R> {
     let element = Turned::new(x, w);
-    let (turn, shift) = element.tangent_seen_from(far);
-    let inverse = turn.inverse();
-    let below = (inverse * shift * inverse).scaled(-R::one());
+    // T⁻¹ seen from the fixed axes: its blocks on the diagonal and the one below. For `p^ T` is in what lies below in T, `T⁻¹ p^` is in that.
+    let tangent = element.turn.inverse();
+    let inverse = tangent * far.rotation.transpose();
+    let ([a, b, c], p) = (inverse.cols, far.position);
+    let by_place = Mat3::from_cols(b * p.z - c * p.y, c * p.x - a * p.z, a * p.y - b * p.x);
+    let below = (tangent * element.shift * inverse + by_place).scaled(-R::one());
     let slack = rest + compliance.scale(element.mean) - x;
     let reciprocal = |v: Vec3<R>| Vec3::new(R::one() / v.x, R::one() / v.y, R::one() / v.z);
     let (bend, stretch) =

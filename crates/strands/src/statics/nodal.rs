@@ -64,7 +64,7 @@ struct Hold<R> {
 pub(crate) struct Nodal<R = f64> {
     axes: Axes,
     links: Vec<Link<R>>,
-    /// What acts on each node beside its elements, and how that changes with its frame, where it does.
+    /// What acts on each node beside its elements, and how that changes with its frame, where it does otherwise than a dead force at its place.
     loads: Vec<Wrench<Vec3<R>>>,
     load_slopes: Vec<(usize, Square<R>)>,
     holds: Vec<Hold<R>>,
@@ -190,19 +190,18 @@ impl Nodal {
             let (world, body) = (axes.wrench(problem.loads.world[i]), axes.wrench(problem.loads.body[i]));
             let mut load = Wrench::new(world.angular + at.cross(world.linear), world.linear);
             let mut slope = Mat6::ZERO;
-            if world.linear != Vec3::ZERO {
-                slope.blocks[0] = dead_moment_slope(at, world.linear);
-            }
             for pull in problem.loads.pulls_at(i) {
                 let force = pull.force(pose.position) * (1.0 / axes.force);
                 load += Wrench::new(at.cross(force), force);
                 let by_shift = pull.slope(pose.position).scaled(axes.length / axes.force);
-                slope = slope.add(&force_slope(at, force, [Mat3::ZERO, by_shift]));
+                slope = slope.add(&force_slope(at, [Mat3::ZERO, by_shift]));
             }
             if body != Wrench::ZERO {
                 let carried = axes.frame(pose).carry_wrench(body);
                 load += carried;
                 slope = slope.add(&element::coadjoint_by_strain(carried));
+                let dead = Mat6 { blocks: [dead_moment_slope(at, carried.linear), [Mat3::ZERO; 2]] };
+                slope = slope.add(&dead.scaled(-1.0));
             }
             self.loads.push(load);
             if slope != Mat6::ZERO {
@@ -217,7 +216,7 @@ impl Nodal {
             let (by_turn, by_shift) = grip.stiffness(pose);
             let by_turn = by_turn.scaled(1.0 / axes.moment) * pose.rotation.transpose();
             let by_shift = by_shift.scaled(axes.length / axes.force);
-            self.load_slopes.push((node, force_slope(at, wrench.linear, [by_turn, by_shift]).to_rows()));
+            self.load_slopes.push((node, force_slope(at, [by_turn, by_shift]).to_rows()));
         }
         self.load_slopes.sort_unstable_by_key(|(node, _)| *node);
     }
@@ -538,12 +537,12 @@ fn log_large_turns<R: Wide>(poses: &Pose<Vec3<R>>, logs: &mut Vec6<Vec3<R>>) {
     }
 }
 
-/// How a wrench at a place, its moment about the origin, changes with the frame there, where its moment about the place changes by so much with the
-/// turn, and its force with the shift.
-fn force_slope(at: Vec3, force: Vec3, [by_turn, by_shift]: [Mat3; 2]) -> Mat6 {
-    let (arm, dead) = (Mat3::hat(at), dead_moment_slope(at, force));
+/// How a wrench at a place, its moment about the origin, changes with the frame there beside what it does as a dead one, where its moment about the
+/// place changes by so much with the turn, and its force with the shift.
+fn force_slope(at: Vec3, [by_turn, by_shift]: [Mat3; 2]) -> Mat6 {
+    let arm = Mat3::hat(at);
     let force = [(by_shift * arm).scaled(-1.0), by_shift];
-    Mat6 { blocks: [[by_turn + arm * force[0] + dead[0], arm * force[1] + dead[1]], force] }
+    Mat6 { blocks: [[by_turn + arm * force[0], arm * force[1]], force] }
 }
 
 /// Elements of a rod of order 2 with a diagonal law, side by side, in the fixed axes.

@@ -15,9 +15,9 @@
 //! a support yields, hardly noticeably: a spring there leaves neutral what is.
 
 use super::super::problem::Problem;
-use super::{Axes, Hold, Nodal, Record};
+use super::{Axes, Hold, Nodal, Record, dead_moment_slope};
 use crate::element;
-use crate::math::{Ldl, Mat6, Pose, Vec3, Vec6, largest, ldl, lu};
+use crate::math::{Ldl, Mat3, Mat6, Pose, Vec3, Vec6, largest, ldl, lu};
 use crate::rod::{Order, Rod};
 
 /// The resistance to a turn, over that to a shift and the length squared, in the measure of a motion.
@@ -74,6 +74,10 @@ impl SecondVariation {
             let all = &mut self.nodes[node].resistance;
             *all = all.add(&symmetric(&local));
         };
+        for (i, load) in nodal.loads.iter().enumerate().filter(|(_, load)| load.linear != Vec3::ZERO) {
+            let by_frame = dead_moment_slope(nodal.places[i], load.linear);
+            add(i, Mat6 { blocks: [by_frame, [Mat3::ZERO; 2]] }.scaled(-1.0));
+        }
         for (node, slope) in &nodal.load_slopes {
             add(*node, Mat6::from_rows(slope).scaled(-1.0));
         }

@@ -8,8 +8,8 @@ use core::ops::Range;
 use super::super::boundary::{displacements, displacements_slope, meet};
 use super::super::march::Record;
 use super::super::problem::{Problem, Support};
-use super::elimination::{Eliminate, Inertia, Square, add_coadjoint, parts};
-use super::{Axes, Hold, Link, Nodal, along_screw, dead_moment_slope, logs, out_of_balance};
+use super::elimination::{Eliminate, Inertia, Square, add_coadjoint, parts, subtract_dead_moment_slope};
+use super::{Axes, Hold, Link, Nodal, along_screw, logs, out_of_balance};
 use crate::element::{Resistance, diagonal_resistance};
 use crate::math::{Kernel, Mat3, Pose, Real, Register, Vec3, Vec6, Wide, Wrench, larger, largest};
 
@@ -178,11 +178,16 @@ impl<R: Register> SideBySide<R> {
             let imbalance = system.imbalance(node);
             for lane in 0..R::LANES {
                 let end = nth_support(problems, lane, at).map_or(first, |(_, end)| end);
+                for r in 0..6 {
+                    hold.fixed[r].put_number(lane, f64::from(end.fixed[r]));
+                }
+                if end.fixed == [true; 6] {
+                    continue;
+                }
                 let pose = poses[node].lane(lane);
                 let free = displacements(end, &pose).to_rows();
                 let curved = displacements_slope(end, &pose, imbalance.lane(lane)).to_rows();
                 for r in 0..6 {
-                    hold.fixed[r].put_number(lane, f64::from(end.fixed[r]));
                     for c in 0..6 {
                         hold.free[r][c].put_number(lane, free[r][c]);
                         hold.curved[r][c].put_number(lane, curved[r][c]);
@@ -308,17 +313,15 @@ impl<R: Wide> Kernel for LineariseAll<'_, R> {
             let (at, load) = (pose.position, dead[i]);
             system.places.push(at);
             let mut acts = Wrench::new(load.angular + at.cross(load.linear), load.linear);
-            let mut slope = [[zero; 6]; 6];
-            let [by_turn, by_shift] = dead_moment_slope(at, load.linear);
-            put_block(&mut slope, 0, 0, &by_turn);
-            put_block(&mut slope, 0, 3, &by_shift);
             if *any_follower {
                 let carried = pose.carry_wrench(follower[i]);
                 acts += carried;
+                let mut slope = [[zero; 6]; 6];
                 add_coadjoint(&mut slope, carried);
+                subtract_dead_moment_slope(&mut slope, at, carried.linear);
+                system.load_slopes.push((i, slope));
             }
             system.loads.push(acts);
-            system.load_slopes.push((i, slope));
         }
         worst
     }
