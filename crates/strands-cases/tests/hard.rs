@@ -20,7 +20,7 @@ fn rod(kinematics: Kinematics, elements: usize, mass_per_length: f64) -> Rod {
         rest: RestShape::default(),
         base: along_x(0.0),
     };
-    Rod::with_elements(description, elements, &[0.5], Order::Second).expect("a rod")
+    Rod::with_elements(description, elements, &[0.5, 0.77], Order::Second).expect("a rod")
 }
 
 /// A frame on the x axis with its tangent along it.
@@ -109,6 +109,27 @@ fn a_taut_thread_turns_to_its_ends_over_the_length_that_its_tension_gives() {
         let expected = 1.0 / (bending_length * bending_length);
         assert!((tension / expected - 1.0).abs() < 0.02, "{spare}: {tension} and {expected}");
     }
+}
+
+#[test]
+fn a_rod_that_its_loads_keep_moving_is_found_by_multiple_shooting() {
+    // A force that follows the end has no potential: moved on from rest the rod flutters.
+    let rod = rod(Kinematics::Kirchhoff, 100, 0.0);
+    let load = PointLoad {
+        at: 1.0,
+        wrench: Wrench::new(Vec3::ZERO, Vec3::new(85.7, -76.1, 137.1)),
+        frame: Frame::Body,
+    };
+    let aside = PointLoad {
+        at: 0.77,
+        wrench: Wrench::new(Vec3::ZERO, along_x(0.0).rotation * Vec3::new(-4.74, 1.49, 3.58)),
+        frame: Frame::World,
+    };
+    let loads = NodalLoads::none(&rod).with_point(&rod, &load).unwrap().with_point(&rod, &aside).unwrap();
+    let problem = Problem { loads, ..Problem::cantilever(rod) };
+    let solution = solve(&problem, &Settings::default(), None, &mut Workspace::default())
+        .unwrap_or_else(|failure| panic!("{failure}"));
+    assert!(solution.imbalance(&problem) < 1e-9, "{:e}", solution.imbalance(&problem));
 }
 
 #[test]

@@ -81,20 +81,20 @@ pub struct Solve {
     #[arg(long)]
     pub json: bool,
     /// Search for all equilibria of the rod, stable and unstable, and list them by energy
-    #[arg(long, conflicts_with = "path")]
+    #[arg(long, conflicts_with = "path", group = "many")]
     pub all: bool,
     /// How hard --all searches: so many times as many starts and paths
     #[arg(long, value_name = "TIMES", default_value_t = 1.0, requires = "all")]
     pub effort: f64,
     /// Follow the equilibrium while a key of the scene changes from value to value, round folds and past bifurcations, such as
     /// `rods.column.loads[0].force=[0,0,0]..[0,0,-5]`
-    #[arg(long, value_name = "KEY=FROM..TO")]
+    #[arg(long, value_name = "KEY=FROM..TO", group = "many")]
     pub path: Option<String>,
     /// Go over to the other branch at this bifurcation of the path, counted from 1
     #[arg(long, value_name = "N", requires = "path", value_parser = clap::value_parser!(u32).range(1..))]
     pub switch: Option<u32>,
     /// The rod that --all or --path is for, where the scene has several
-    #[arg(long, value_name = "NAME")]
+    #[arg(long, value_name = "NAME", requires = "many")]
     pub rod: Option<String>,
     #[command(flatten)]
     pub overrides: Overrides,

@@ -6,8 +6,8 @@ use std::time::Instant;
 
 use serde_json::Value as Json;
 use strands::statics::{
-    EventKind, Path, PathEnd, PathError, PathSettings, SearchSettings, Solution, Workspace, equilibria,
-    follow_path,
+    EventKind, MOST_ALIKE, Path, PathEnd, PathError, PathSettings, SearchSettings, Solution, Workspace,
+    equilibria, follow_path,
 };
 use strands_scene::write::{PathAnswer, equilibria_json, path_json};
 use strands_scene::{MeshChoice, Model};
@@ -28,7 +28,7 @@ pub fn all(options: &Solve, source: &Source, outputs: &[(&PathBuf, Format)]) -> 
     let name = rod_named(options.rod.as_deref(), &model, None)?;
     model.refine(&name).map_err(Failure::bad)?;
     if !(options.effort > 0.0 && options.effort <= 1e4) {
-        return Err(Failure::bad("--effort: give a number between 0 and 10000"));
+        return Err(Failure::bad("--effort: give a number greater than 0 and up to 10000"));
     }
     let times = |count: usize| (count as f64 * options.effort).ceil() as usize;
     let default = SearchSettings::default();
@@ -67,13 +67,27 @@ fn list(model: &Model, name: &str, found: &[Solution], seconds: f64) -> String {
         return out;
     }
     let _ = writeln!(out, "  {:>3}  {:>14}  {:<24} middle, m", "", "energy", "");
+    let mut rows = 0;
     for (i, solution) in found.iter().enumerate() {
+        let alike = |other: &&Solution| same_energy(other, solution);
+        let before = found[..i].iter().rev().take_while(alike).count();
+        let all = before + found[i..].iter().take_while(alike).count();
+        // Of a circle the first.
+        if all >= MOST_ALIKE && before > 0 {
+            continue;
+        }
+        rows += 1;
+        if rows > ROWS {
+            let _ = writeln!(out, "  … and {} more, which --json and -o list", found.len() - i);
+            break;
+        }
+        let circle = if all >= MOST_ALIKE { ", and turned about an axis at will" } else { "" };
         let middle = solution.poses[solution.poses.len() / 2].position;
         let _ = writeln!(
             out,
-            "  {:>3}  {:>14}  {:<24} ({:.4}, {:.4}, {:.4})",
+            "  {:>3}  {:>14}  {:<24} ({:.4}, {:.4}, {:.4}){circle}",
             i + 1,
-            engineering(solution.energy.elastic + solution.energy.load, "J"),
+            engineering(energy(solution), "J"),
             stability(solution.report.morse_index),
             middle.x,
             middle.y,
@@ -81,6 +95,16 @@ fn list(model: &Model, name: &str, found: &[Solution], seconds: f64) -> String {
         );
     }
     out
+}
+
+fn energy(solution: &Solution) -> f64 {
+    solution.energy.elastic + solution.energy.load
+}
+
+/// Whether two are one shape that lies otherwise, as far as energies tell.
+fn same_energy(a: &Solution, b: &Solution) -> bool {
+    let size = a.energy.elastic.abs() + a.energy.load.abs();
+    (energy(a) - energy(b)).abs() <= 1e-7 * size
 }
 
 fn stability(index: Option<usize>) -> String {
@@ -150,10 +174,14 @@ pub fn path(
     } else {
         say(table(&first, &way, &found, &points).trim_end())?;
     }
+    let bifurcations = found.events.iter().filter(|event| event.kind == EventKind::Bifurcation).count();
+    if let Some(number) = options.switch.filter(|number| *number as usize > bifurcations) {
+        return Err(Failure::bad(format!("--switch {number}: the path has {bifurcations} bifurcations")));
+    }
     if matches!(found.end, PathEnd::Reached | PathEnd::Returned) { Ok(()) } else { Err(Failure::Unsolved) }
 }
 
-/// Rows of the table of a path, beside its events.
+/// Rows of a table; of a path beside its events.
 const ROWS: usize = 24;
 
 fn table(model: &Model, way: &Way, found: &Path, points: &[PathAnswer<'_>]) -> String {
@@ -181,7 +209,7 @@ fn table(model: &Model, way: &Way, found: &Path, points: &[PathAnswer<'_>]) -> S
             out,
             "  {:<30} {:>14}  {:<24} ({:.4}, {:.4}, {:.4})",
             short(&point.value),
-            engineering(solution.energy.elastic + solution.energy.load, "J"),
+            engineering(energy(solution), "J"),
             stability(solution.report.morse_index),
             end.x,
             end.y,

@@ -27,6 +27,16 @@ fn the_scene_has_the_answer_that_is_shown() {
 }
 
 #[test]
+fn the_path_reaches_its_end() {
+    let readme = readme();
+    let (_, rest) = readme.split_once("`strands solve thread.toml --path '").expect("the command");
+    let (path, _) = rest.split_once('\'').expect("its end");
+    let run = crate::common::strands_with(&["solve", "-", "--path", path], block(&readme, "toml"));
+    assert_eq!((run.code, run.err.as_str()), (0, ""), "{}", run.out);
+    assert!(run.out.contains("the path reaches its end"), "{}", run.out);
+}
+
+#[test]
 fn the_code_is_this_code() {
     let here = include_str!("readme.rs");
     let (_, rest) = here.split_once("    // The README shows from here\n").expect("the start");

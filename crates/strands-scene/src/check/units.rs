@@ -61,7 +61,7 @@ fn modulus(remarks: &mut Remarks<'_>, path: &KeyPath, modulus: f64, density: f64
     } else {
         format!("no material has a Young's modulus of {} Pa", short(modulus))
     };
-    let mend = if modulus < SOFTEST_METAL {
+    let mend = if modulus < SOFTEST_METAL && !short(modulus).contains('e') {
         format!("give it in Pa: {0} GPa is {0}e9, {0} MPa is {0}e6", short(modulus))
     } else {
         "give it in Pa: steel has 200e9, rubber 5e6".to_owned()

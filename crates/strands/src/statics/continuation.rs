@@ -110,8 +110,11 @@ pub enum PathError<E> {
 const DIFFERENCE: f64 = 1e-6;
 /// Iterations that a point may take; after more, the step was too long.
 const MOST_ITERATIONS: usize = 12;
-/// A point that takes no more is a reason for a longer step. A rod that is stiff against stretching takes five of them for the smallest step.
+/// A point that takes no more is a reason for a longer step.
 const ENOUGH_ITERATIONS: usize = 6;
+/// And so is one whose first correction turns (rad) and shifts (over half the length) no node by more, however many follow: a rod that is stiff against
+/// stretching takes seven for the smallest step.
+const SMALL_CORRECTION: f64 = 0.01;
 /// The largest turn (rad) or shift (over half the length) of a node in one step.
 const LARGEST_MOTION: f64 = 0.25;
 /// The tangent may turn so far in one step (cosine): further, it is another branch's.
@@ -122,6 +125,13 @@ const SHORTEST_STEP: f64 = 1e-7;
 const HALVINGS: usize = 36;
 /// How often a step with several events is halved to tell them apart.
 const SPLITS: usize = 12;
+/// So many stabilities may change at one place, with room: two do where a rod is round.
+const MOST_AT_ONCE: usize = 6;
+/// A step that is shorter than this part of the longest and has more is at an infinite tension.
+const SHORTEST_TO_LEAP: f64 = 1e-3;
+/// A path creeps in steps that are shorter than this part of the longest, and after so many of them in a row it is left.
+const CREEPING: f64 = 1e-3;
+const MOST_CREPT: usize = 60;
 /// Iterations for a critical mode.
 const MODE_ITERATIONS: usize = 6;
 
@@ -167,6 +177,8 @@ struct Point {
     problem: Problem,
     record: Record,
     report: SolveReport,
+    /// The first correction of what was predicted: how far it moved a node.
+    correction: f64,
     /// The system there, its other solution the change of the state with the parameter (or with the way along a mode).
     nodal: Nodal,
     tangent: Tangent,
@@ -205,6 +217,11 @@ impl Tangent {
     }
 }
 
+/// Whether more stabilities change than a path can lose at once: from an infinite tension a step leads to an infinite pressure.
+fn leaps(here: &Point, next: &Point) -> bool {
+    matches!((here.index, next.index), (Some(a), Some(b)) if a.abs_diff(b) > MOST_AT_ONCE)
+}
+
 fn inner(a: Vec6, b: Vec6) -> f64 {
     a.angular.dot(b.angular) + 4.0 * a.linear.dot(b.linear)
 }
@@ -222,6 +239,7 @@ impl Follower<'_> {
             Path { points: vec![self.shown(&start)], events: Vec::new(), end: PathEnd::MostPoints };
         let mut here = start;
         let (mut step, mut bifurcations) = (0.2 * self.settings.largest_step, 0);
+        let mut crept = 0;
         while path.points.len() < self.settings.most_points {
             step = step.min(self.longest_step(&here));
             let (next, taken) = match self.step_adapted(&here, step) {
@@ -268,7 +286,14 @@ impl Follower<'_> {
                 path.end = if next.at > 0.5 { PathEnd::Reached } else { PathEnd::Returned };
                 break;
             }
-            step = taken * if next.report.iterations <= ENOUGH_ITERATIONS { 1.5 } else { 0.8 };
+            let easy = next.report.iterations <= ENOUGH_ITERATIONS || next.correction <= SMALL_CORRECTION;
+            crept = if taken < CREEPING * self.settings.largest_step { crept + 1 } else { 0 };
+            if crept == MOST_CREPT {
+                let why = "it goes on in steps that are hardly any, as where the rod is pulled straight between its supports and what is asked is out of its reach";
+                path.end = PathEnd::Stuck { why: why.into() };
+                break;
+            }
+            step = taken * if easy { 1.5 } else { 0.8 };
             here = next;
         }
         path
@@ -287,6 +312,12 @@ impl Follower<'_> {
         let mut step = step;
         loop {
             match self.step(here, step) {
+                Ok(next) if leaps(here, &next) => {
+                    if step < SHORTEST_TO_LEAP * self.settings.largest_step {
+                        return Err("the rod is pulled straight, and its tension grows without bound: beyond lies what it cannot reach".into());
+                    }
+                    step *= 0.5;
+                }
                 Ok(next) if next.tangent.cosine(&here.tangent) >= LEAST_COSINE => return Ok((next, step)),
                 Ok(_) if step < SHORTEST_STEP * self.settings.largest_step => {
                     return Err("the path turns sharply".into());
@@ -318,7 +349,7 @@ impl Follower<'_> {
         let problem = (self.family)(at)?;
         let record = self.workspace.record.clone();
         let forwards = Tangent::of_parameter();
-        self.converged(at, problem, record, report.clone(), &forwards)
+        self.converged(at, problem, record, report.clone(), 0.0, &forwards)
     }
 
     /// Newton's method from a predicted state: the corrections are normal to `normal`.
@@ -336,6 +367,7 @@ impl Follower<'_> {
         let mut record = here.record.clone();
         ahead.take(&problem, level, 1.0, &mut record);
         let mut nodal = ahead;
+        let mut correction = 0.0;
         let mut report = SolveReport { method: Method::Equilibrium, path_steps: 1, ..SolveReport::default() };
         loop {
             let lent = rigid_compliance(strength(&problem, &record));
@@ -347,7 +379,7 @@ impl Follower<'_> {
                 return Err("the numbers overflowed".into());
             }
             if residual <= self.settings.solver.tolerance {
-                return self.converged(at, problem, record, report, before);
+                return self.converged(at, problem, record, report, correction, before);
             }
             if report.iterations >= MOST_ITERATIONS {
                 return Err(format!("the residual stays at {residual:.1e}"));
@@ -363,6 +395,9 @@ impl Follower<'_> {
             let size = nodal.step_size();
             if !(change.is_finite() && size < 2.0 * LARGEST_MOTION) {
                 return Err("a correction is larger than the step".into());
+            }
+            if report.iterations == 0 {
+                correction = size;
             }
             at += change;
             problem = self.problem(at, here)?;
@@ -415,6 +450,7 @@ impl Follower<'_> {
         problem: Problem,
         mut record: Record,
         report: SolveReport,
+        correction: f64,
         before: &Tangent,
     ) -> Result<Point, String> {
         let level = self.workspace.simd;
@@ -427,7 +463,7 @@ impl Follower<'_> {
         let tangent = tangent(&nodal, 1.0, before).ok_or("the system is singular")?;
         self.workspace.record.clone_from(&record);
         let index = morse_index(&problem, self.workspace);
-        Ok(Point { at, problem, record, report, nodal, tangent, odd: negative % 2 == 1, index })
+        Ok(Point { at, problem, record, report, correction, nodal, tangent, odd: negative % 2 == 1, index })
     }
 
     /// The folds and bifurcations between two points of a path, each with the point just before it. A step with several is split.

@@ -32,7 +32,7 @@ pub use continuation::{Event, EventKind, Path, PathEnd, PathError, PathPoint, Pa
 pub use plan::{Plan, plan};
 pub use problem::{Problem, Stretch, Support};
 pub use refine::{RefineError, Refined, refine};
-pub use search::{SearchSettings, equilibria};
+pub use search::{MOST_ALIKE, SearchSettings, equilibria};
 pub use shooting::Workspace;
 pub use solution::{
     Energy, FailureReason, Guess, Jacobian, Method, Reaction, Scheme, Settings, Solution, SolveFailure,
@@ -87,7 +87,7 @@ fn concluded(
         Outcome::Singular => FailureReason::Singular,
         Outcome::NotFinite => FailureReason::NotFinite { node: first_bad_node(workspace) },
         Outcome::Stalled => too_coarse(problem, workspace).unwrap_or(FailureReason::NotConverged {
-            residual: report.residual_history.iter().copied().fold(f64::INFINITY, f64::min),
+            residual: report.residual,
             tolerance: settings.tolerance,
             iterations: report.iterations,
         }),
@@ -279,7 +279,7 @@ fn from_rest(
     report: &mut SolveReport,
 ) -> Search {
     match plan(problem, settings, None).way {
-        Way::Settle => return by_moving(problem, settings, workspace, report),
+        Way::Settle => return by_moving_or_segments(problem, settings, workspace, report),
         Way::Segments => return multiple_shooting::from_rest(problem, settings, workspace, report),
         _ => {}
     }
@@ -288,7 +288,31 @@ fn from_rest(
     if search.outcome == Outcome::Converged || settings.method != Method::Auto {
         return search;
     }
-    by_moving(problem, settings, workspace, report)
+    by_moving_or_segments(problem, settings, workspace, report)
+}
+
+/// Lets the rod move to where it rests, and where it does not come to rest (loads that follow it may keep it moving, and round-off where it is taut)
+/// looks for an equilibrium, stable or not, by multiple shooting.
+fn by_moving_or_segments(
+    problem: &Problem,
+    settings: &Settings,
+    workspace: &mut Workspace,
+    report: &mut SolveReport,
+) -> Search {
+    let moved = by_moving(problem, settings, workspace, report);
+    let given_up = moved.outcome != Outcome::Converged && settings.method == Method::Auto;
+    if !(given_up && problem.can_be_shot() && settings.scheme == Scheme::Element) {
+        return moved;
+    }
+    let (record, residual, method) = (workspace.record.clone(), report.residual, report.method);
+    let shot = multiple_shooting::from_rest(problem, settings, workspace, report);
+    if shot.outcome == Outcome::Converged {
+        return shot;
+    }
+    // What the rod came to is nearer to an equilibrium than what the shots did.
+    workspace.record = record;
+    (report.residual, report.method) = (residual, method);
+    moved
 }
 
 /// Lets the rod move to where it rests. A scheme without an energy starts from where one with an energy does.

@@ -39,12 +39,18 @@ impl Default for SearchSettings {
 
 /// Two equilibria closer than this, in rad and over the length, at a quarter, half and three quarters of the rod, are one.
 const SAME: f64 = 1e-5;
+/// Of equilibria that differ only in how the rod as a whole lies, so many are kept: where it may be turned about an axis at will, as a round column
+/// that buckles, there is a circle of them.
+pub const MOST_ALIKE: usize = 8;
+/// How much curvatures of such differ at most, over one over the length.
+const ALIKE: f64 = 1e-4;
 /// A try may take so many iterations: most that get anywhere need fewer.
 const ITERATIONS: usize = 40;
 /// The turn, rad, of an element beside its rest that the mesh cannot show: with more, what is found is the mesh's and not the rod's.
 const LARGEST_TURN: f64 = 1.0;
 
-/// Searches for equilibria, stable and unstable, and gives them by growing energy.
+/// Searches for equilibria, stable and unstable, and gives them by growing energy. Of those that are alike, the same shape lying otherwise, it gives
+/// [`MOST_ALIKE`] at most.
 ///
 /// # Errors
 /// Where the problem cannot be posed, or its elements have no energy to lower (order 1, the multistep scheme).
@@ -137,7 +143,8 @@ impl Seeker<'_> {
     fn keep(&mut self, search: Search, mut report: SolveReport) {
         let new = search.outcome == Outcome::Converged
             && self.is_shown_by_the_mesh()
-            && !self.knows(&self.workspace.record.poses);
+            && !self.knows(&self.workspace.record.poses)
+            && self.alike() < MOST_ALIKE;
         if !new {
             return;
         }
@@ -154,6 +161,20 @@ impl Seeker<'_> {
             let bent = strains[e][0].angular - rod.rest_strains(e)[0].angular;
             bent.norm() * rod.element_length(e) < LARGEST_TURN
         })
+    }
+
+    /// How many of those that have been found have the shape of the one in the workspace.
+    fn alike(&self) -> usize {
+        let (rod, strains) = (&self.problem.rod, &self.workspace.record.strains);
+        let near = ALIKE / rod.length();
+        let same = |other: &Found| {
+            let strains = strains.iter().zip(&other.record.strains).step_by(1 + strains.len() / 16);
+            strains.into_iter().all(|(a, b)| {
+                let (a, b) = (a[0].angular, b[0].angular);
+                (a.x.hypot(a.y) - b.x.hypot(b.y)).abs() < near && (a.z - b.z).abs() < near
+            })
+        };
+        self.found.iter().filter(|found| same(found)).count()
     }
 
     fn knows(&self, poses: &[Pose]) -> bool {

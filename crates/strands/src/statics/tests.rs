@@ -2,7 +2,9 @@ use super::*;
 use crate::coupling::{Grip, VirtualCoupling};
 use crate::load::{DistributedLoad, Frame, NodalLoads, PointLoad};
 use crate::math::{Pose, Quat, SimdLevel, Wrench};
-use crate::rod::{Law, Mesh, Order, Profile, RestShape, Rod, RodDescription, Stiffness};
+use crate::rod::{
+    Law, Material, Mesh, Order, Profile, RestShape, Rod, RodDescription, Section, Station, Stiffness,
+};
 
 mod batch;
 mod continuation;

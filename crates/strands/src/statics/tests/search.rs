@@ -34,6 +34,25 @@ fn a_column_beyond_two_critical_loads_has_five_equilibria() {
 }
 
 #[test]
+fn a_round_column_that_buckles_whichever_way_is_listed_a_few_times() {
+    let mut description = description(Kinematics::Kirchhoff, RestShape::default());
+    if let Profile::Given { law: Law::Diagonal(stiffness), .. } = &mut description.profile {
+        stiffness.bending = [0.05; 2];
+    }
+    let rod = Rod::with_elements(description, 40, &[], Order::Second).unwrap();
+    let base = rod.description().base;
+    let down = base.rotation.cols[2] * (-4.0 * 0.25 * PI * PI * 0.05 / 0.64);
+    let load = PointLoad { at: 0.8, wrench: Wrench::new(Vec3::ZERO, down), frame: Frame::World };
+    let loads = NodalLoads::none(&rod).with_point(&rod, &load).unwrap();
+    let problem = Problem { loads, ..Problem::cantilever(rod) };
+    let settings = SearchSettings { starts: 500, paths: 5, ..SearchSettings::default() };
+    let found = equilibria(&problem, &settings, &mut Workspace::default()).unwrap();
+    let indices: Vec<_> = found.iter().filter_map(|solution| solution.report.morse_index).collect();
+    // Straight, it falls two ways.
+    assert_eq!(indices, [[0; MOST_ALIKE].as_slice(), &[2]].concat());
+}
+
+#[test]
 fn twisting_a_straight_rod_once_round_leads_to_other_twist_classes() {
     // Held at both ends, 0.9 of its length apart, it buckles, and into loops, which differ by whole turns of twist.
     let rod = rod(Kinematics::Cosserat, RestShape::default(), 50, Order::Second);
