@@ -86,11 +86,9 @@ fn concluded(
         }
         Outcome::Singular => FailureReason::Singular,
         Outcome::NotFinite => FailureReason::NotFinite { node: first_bad_node(workspace) },
-        Outcome::Stalled => too_coarse(problem, workspace).unwrap_or(FailureReason::NotConverged {
-            residual: report.residual,
-            tolerance: settings.tolerance,
-            iterations: report.iterations,
-        }),
+        Outcome::Stalled => {
+            too_coarse(problem, workspace).unwrap_or_else(|| stalled(settings, workspace, &report))
+        }
     };
     Err(failure(problem, search, reason, workspace, report))
 }
@@ -381,6 +379,18 @@ fn refused(problem: &Problem, settings: &Settings) -> Option<FailureReason> {
     let too_far = problem.stretches().into_iter().find(|stretch| stretch.spare() < -1e-12)?;
     let Stretch { from, to, chord, length } = too_far;
     Some(FailureReason::OutOfReach { distance: chord.norm(), length, from: nodes[from], to: nodes[to] })
+}
+
+/// That a search did not come to its tolerance, by the last residual that was a number.
+fn stalled(settings: &Settings, workspace: &Workspace, report: &SolveReport) -> FailureReason {
+    let Some(residual) = report.residual_history.iter().rev().find(|residual| residual.is_finite()) else {
+        return FailureReason::NotFinite { node: first_bad_node(workspace) };
+    };
+    FailureReason::NotConverged {
+        residual: *residual,
+        tolerance: settings.tolerance,
+        iterations: report.iterations,
+    }
 }
 
 /// Whether the tension in the last state bends the rod over less than its elements' length.
