@@ -42,6 +42,7 @@ pub fn problem(number: u64, elements: usize, order: Order) -> Result<Problem, Ro
                 shear: [0.4 * axial; 2],
             }),
             mass_per_length: 1.0,
+            rotational_inertia_per_length: Vec3::ZERO,
             half_extent: [0.01; 2],
         },
         rest: RestShape::Constant(curvature),

@@ -34,6 +34,7 @@ pub(crate) fn straight(length: f64, bending: f64, stretch: Option<[f64; 2]>) -> 
         profile: Profile::Given {
             law: Law::Diagonal(stiffness),
             mass_per_length: 0.0,
+            rotational_inertia_per_length: Vec3::ZERO,
             half_extent: [0.005 * length; 2],
         },
         rest: RestShape::default(),

@@ -41,6 +41,7 @@ pub(crate) fn description(record: &Record<'_>) -> RodDescription {
                 shear: [number("GA1"), number("GA2")],
             }),
             mass_per_length: 0.0,
+            rotational_inertia_per_length: strands::math::Vec3::ZERO,
             half_extent: [0.005 * length; 2],
         },
         rest: RestShape::Samples(vec![(0.0, from), (length, from + growth)]),

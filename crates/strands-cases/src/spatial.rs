@@ -13,7 +13,12 @@ pub(crate) fn cases() -> Vec<Case> {
 }
 
 fn given(stiffness: Stiffness) -> Profile {
-    Profile::Given { law: Law::Diagonal(stiffness), mass_per_length: 0.0, half_extent: [0.5; 2] }
+    Profile::Given {
+        law: Law::Diagonal(stiffness),
+        mass_per_length: 0.0,
+        rotational_inertia_per_length: Vec3::ZERO,
+        half_extent: [0.5; 2],
+    }
 }
 
 fn dead(moment: Vec3, force: Vec3) -> Tip {

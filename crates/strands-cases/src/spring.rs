@@ -46,6 +46,7 @@ fn spring(record: &Record<'_>, given: &str) -> Row {
         profile: Profile::Given {
             law: Law::Diagonal(Stiffness { bending: [BENDING; 2], torsion, axial: 1.0, shear: [1.0; 2] }),
             mass_per_length: 0.0,
+            rotational_inertia_per_length: Vec3::ZERO,
             half_extent: [0.1 * rest.radius; 2],
         },
         rest: RestShape::Constant(rest.curvature()),

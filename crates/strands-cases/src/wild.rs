@@ -120,6 +120,7 @@ fn rod(draw: &mut Draw, powers: &Powers, large: bool) -> Result<Rod, RodError> {
         profile: Profile::Given {
             law: draw.law(bending, stretch, powers.spread),
             mass_per_length: weight / (9.81 * length),
+            rotational_inertia_per_length: Vec3::ZERO,
             half_extent: [1e-3 * length; 2],
         },
         rest: draw.rest_shape(length, powers.spread),

@@ -15,6 +15,7 @@ fn rod(kinematics: Kinematics, elements: usize, mass_per_length: f64) -> Rod {
         profile: Profile::Given {
             law: Law::Diagonal(Stiffness { bending: [1.0; 2], torsion: 0.8, axial: 1e6, shear: [1e6; 2] }),
             mass_per_length,
+            rotational_inertia_per_length: Vec3::ZERO,
             half_extent: [0.001; 2],
         },
         rest: RestShape::default(),

@@ -19,6 +19,8 @@ pub struct Arguments {
 pub enum Command {
     /// Find the equilibrium of a scene
     Solve(Solve),
+    /// Let a scene move in time
+    Simulate(Simulate),
     /// Say how hard a scene is, and what looks wrong with it
     Check(Check),
     /// Show a scene in the browser, to hold in the hand
@@ -96,6 +98,32 @@ pub struct Solve {
     /// The rod that --all or --path is for, where the scene has several
     #[arg(long, value_name = "NAME", requires = "many")]
     pub rod: Option<String>,
+    #[command(flatten)]
+    pub overrides: Overrides,
+}
+
+/// `strands simulate`.
+#[derive(Debug, Args)]
+#[command(after_help = "\
+Each rod moves by itself, on the mesh of the scene. The scene's [dynamics] says how, and what it leaves out is: integrator bdf2, time_step 1e-3 s,
+duration 1 s, output_rate 60 frames a second, start in equilibrium. `--set dynamics.time_step=5e-4` changes any of them.
+
+Exit status: 0 finished, 1 bad scene or arguments, 2 a step could not be made; what was simulated until then is written all the same.")]
+pub struct Simulate {
+    /// A scene file (.toml or .json), `-` for standard input, or the bare name of a bundled scene
+    pub scene: String,
+    /// How long to simulate, s
+    #[arg(long, value_name = "S")]
+    pub seconds: Option<f64>,
+    /// How far frames are apart, s
+    #[arg(long, value_name = "S")]
+    pub every: Option<f64>,
+    /// Write the frames, in the format of the ending: .json .csv; may be repeated
+    #[arg(short, long, value_name = "FILE")]
+    pub output: Vec<PathBuf>,
+    /// Print one JSON object and nothing else
+    #[arg(long)]
+    pub json: bool,
     #[command(flatten)]
     pub overrides: Overrides,
 }

@@ -8,6 +8,7 @@ mod many;
 mod new;
 mod overrides;
 mod page;
+mod simulate;
 mod solve;
 mod source;
 mod summary;
@@ -72,6 +73,7 @@ fn main() -> ExitCode {
 fn run(command: Command) -> Result<(), Failure> {
     match command {
         Command::Solve(options) => solve::run(&options),
+        Command::Simulate(options) => simulate::run(&options),
         Command::Check(options) => check::run(&options),
         Command::New(options) => new::run(&options),
         Command::View(options) => view::run(&options),

@@ -1,5 +1,6 @@
 //! A scene as understood: rods, loads and supports in SI units, validated, ready to solve.
 
+use crate::file::DynamicsFile;
 use strands::coupling::VirtualCoupling;
 use strands::load::{DistributedLoad, DistributedPull, NodalLoads, PointLoad, PointPull};
 use strands::math::{Mat3, Pose, Vec3};
@@ -21,6 +22,8 @@ pub struct Model {
     pub rods: Vec<ModelRod>,
     /// How to solve.
     pub settings: Settings,
+    /// How to simulate motion, as the scene says it.
+    pub dynamics: DynamicsFile,
 }
 
 /// A rod of a scene.
@@ -35,6 +38,8 @@ pub struct ModelRod {
     pub hand: Option<VirtualCoupling>,
     /// How the mesh is chosen.
     pub mesh: MeshChoice,
+    /// The Kelvin–Voigt damping time of its material, s.
+    pub damping: f64,
     pub(crate) loads: Loads,
     pub(crate) supports: Vec<Held>,
 }

@@ -26,7 +26,12 @@ fn main() -> Result<(), Box<dyn std::error::Error>> {
         let description = RodDescription {
             length: 0.1,
             kinematics: Kinematics::Cosserat,
-            profile: Profile::Given { law, mass_per_length: 0.02, half_extent: [2e-3; 2] },
+            profile: Profile::Given {
+                law,
+                mass_per_length: 0.02,
+                rotational_inertia_per_length: Vec3::ZERO,
+                half_extent: [2e-3; 2],
+            },
             rest: RestShape::default(),
             base: Pose::IDENTITY,
         };

@@ -34,6 +34,7 @@ fn round(length: f64, radius: f64, [youngs, shear]: [f64; 2], density: f64) -> S
         profile: Profile::Given {
             law: Law::Diagonal(stiffness),
             mass_per_length: density * area,
+            rotational_inertia_per_length: Vec3::ZERO,
             half_extent: [radius; 2],
         },
         rest: RestShape::default(),

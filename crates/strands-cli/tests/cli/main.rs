@@ -4,6 +4,7 @@ mod check;
 mod common;
 mod many;
 mod readme;
+mod simulate;
 mod validate;
 mod view;
 
@@ -22,7 +23,9 @@ fn assert_golden(name: &str, text: &str) {
 
 #[test]
 fn help_says_what_there_is() {
-    for command in ["", "solve", "check", "view", "new", "schema", "validate", "bench", "completions"] {
+    for command in
+        ["", "solve", "simulate", "check", "view", "new", "schema", "validate", "bench", "completions"]
+    {
         let arguments: Vec<&str> = command.split_whitespace().chain(["--help"]).collect();
         let run = strands(&arguments);
         assert_eq!((run.code, run.err.as_str()), (0, ""));

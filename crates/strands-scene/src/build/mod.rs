@@ -23,6 +23,7 @@ use strands::rod::{Material, Order};
 /// What the parts of a scene need to know of the whole.
 struct Context<'a> {
     document: &'a Document,
+    file: &'a SceneFile,
     folder: Option<&'a Path>,
     gravity: Vec3,
     materials: IndexMap<&'a str, Material>,
@@ -41,13 +42,15 @@ pub(crate) fn model(
     }
     let context = Context {
         document,
+        file,
         folder,
         gravity: Vec3::from(file.gravity.unwrap_or_default()),
         materials: settings::materials(document, file)?,
         order: settings::order(document, file)?,
     };
     let settings = settings::solver(document, file)?;
-    settings::without_effect(document, file)?;
+    settings::check_motion(document, file)?;
+    let dynamics = file.dynamics.clone().unwrap_or_default();
     let mut rods = Vec::with_capacity(file.rods.len());
     if file.rods.is_empty() {
         return Err(document.error(&KeyPath::of("rods"), "there is no rod").mend("add one: `[rods.thread]`"));
@@ -59,5 +62,5 @@ pub(crate) fn model(
     if let Some(coupling) = &file.coupling {
         hold::hand(document, &coupling.hand, &mut rods)?;
     }
-    Ok(Model { name: file.name.clone(), gravity: context.gravity, rods, settings })
+    Ok(Model { name: file.name.clone(), gravity: context.gravity, rods, settings, dynamics })
 }

@@ -244,6 +244,7 @@ fn given(
             document.error(&path.key("material"), "`stiffness` takes the place of `material` and `section`");
         return Err(error.mend("remove `material`, or give a `section` in place of `stiffness`"));
     }
+    let rotational_inertia_per_length = rod.rotational_inertia_per_length.map_or(Vec3::ZERO, Vec3::from);
     for (i, inertia) in rod.rotational_inertia_per_length.iter().flatten().enumerate() {
         document.not_negative(&path.key("rotational_inertia_per_length").index(i), *inertia)?;
     }
@@ -298,7 +299,7 @@ fn given(
     };
     // The full ellipse of one material that has these stiffnesses: EI1 = EA b²/4, EI2 = EA a²/4.
     let half_extent = [2.0 * (bending[1] / axial).sqrt(), 2.0 * (bending[0] / axial).sqrt()];
-    Ok(Profile::Given { law, mass_per_length, half_extent })
+    Ok(Profile::Given { law, mass_per_length, rotational_inertia_per_length, half_extent })
 }
 
 fn diagonal(

@@ -50,7 +50,9 @@ pub(super) fn rod(
     let problem = loads
         .problem(rod, &supports)
         .map_err(|error| document.error(&path.key("loads"), error.to_string()))?;
-    Ok(ModelRod { name: name.to_owned(), problem, hand: None, mesh, loads, supports })
+    let material = file.material.as_ref().and_then(|name| context.file.materials.get(name));
+    let damping = material.and_then(|material| material.damping).unwrap_or(0.0);
+    Ok(ModelRod { name: name.to_owned(), problem, hand: None, mesh, damping, loads, supports })
 }
 
 /// The frame of the rod's start.

@@ -108,8 +108,8 @@ pub(super) fn solver(document: &Document, file: &SceneFile) -> Result<Settings, 
     })
 }
 
-/// Checks what is kept for motion and contact.
-pub(super) fn without_effect(document: &Document, file: &SceneFile) -> Result<(), SceneError> {
+/// Checks what is said of motion and contact.
+pub(super) fn check_motion(document: &Document, file: &SceneFile) -> Result<(), SceneError> {
     if let Some(friction) = file.contact.as_ref().and_then(|contact| contact.friction) {
         document.not_negative(&KeyPath::of("contact").key("friction"), friction)?;
     }

@@ -84,7 +84,7 @@ impl Column {
         let push: Vec3 = at_head()
             .filter(|load| load.frame == Frame::World)
             .fold(Vec3::ZERO, |sum, load| sum + load.wrench.linear);
-        let own = loads.gravity * rod.node_mass().iter().sum::<f64>();
+        let own = loads.gravity * rod.mass();
         let all = push + own;
         let aside = (all - axis * all.dot(axis)).norm();
         let bent_anyway =

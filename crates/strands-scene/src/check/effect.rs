@@ -1,4 +1,4 @@
-//! What has no effect: keys that a static solve does not use, loads that go straight into a support, rods that nothing loads.
+//! What has no effect: keys for contact, loads that go straight into a support, rods that nothing loads.
 
 use super::{Remarks, View, metres};
 use crate::document::KeyPath;
@@ -8,26 +8,14 @@ use strands::math::Vec6;
 /// How far a support may be from where the unloaded rod is, as a part of the length and in rad, and still leave it as it is.
 const AS_IT_IS: f64 = 1e-9;
 
-/// Looks at the keys for motion and contact.
+/// Looks at the keys for contact.
 pub(super) fn look(remarks: &mut Remarks<'_>, file: &SceneFile) {
-    let why = "it is kept for later versions, and may stay";
-    let mut unused = |path: &KeyPath, what: &str| {
-        remarks.note(
-            path,
-            format!("{what} has no effect: a rod is solved at rest, and touches nothing"),
-            why,
-        );
-    };
-    if file.dynamics.is_some() {
-        unused(&KeyPath::of("dynamics"), "`[dynamics]`");
-    }
     if file.contact.is_some() {
-        unused(&KeyPath::of("contact"), "`[contact]`");
-    }
-    for (name, material) in &file.materials {
-        if material.damping.is_some() {
-            unused(&KeyPath::of("materials").key(name).key("damping"), "`damping`");
-        }
+        remarks.note(
+            &KeyPath::of("contact"),
+            "`[contact]` has no effect: a rod touches nothing".to_owned(),
+            "it is kept for later versions, and may stay",
+        );
     }
 }
 

@@ -42,7 +42,7 @@ impl Numbers {
         let rod = &view.rod.problem.rod;
         let loads = &view.rod.loads;
         let length = rod.length();
-        let mut dead = loads.gravity * rod.node_mass().iter().sum::<f64>();
+        let mut dead = loads.gravity * rod.mass();
         let mut following = 0.0;
         for load in &loads.stretches {
             let force = load.per_length.linear * (load.to - load.from);

@@ -73,7 +73,7 @@ pub(super) fn look_at_loads(remarks: &mut Remarks<'_>, view: &View<'_>) {
 fn largest_load(view: &View<'_>) -> KeyPath {
     let loads = view.path.key("loads");
     let length = view.rod.problem.rod.length();
-    let weight = view.rod.loads.gravity.norm() * view.rod.problem.rod.node_mass().iter().sum::<f64>();
+    let weight = view.rod.loads.gravity.norm() * view.rod.problem.rod.mass();
     let forces = view.file.loads.iter().enumerate().filter_map(|(i, load)| {
         let place = loads.index(i);
         let norm = |force: [f64; 3]| force.iter().map(|x| x * x).sum::<f64>().sqrt();

@@ -112,4 +112,6 @@ pub enum IntegratorName {
     GeneralizedAlpha,
     /// The implicit midpoint rule.
     Midpoint,
+    /// A singly diagonally implicit Runge–Kutta method of order four, L-stable.
+    Sdirk4,
 }

@@ -9,6 +9,7 @@ mod colour;
 mod csv;
 mod glb;
 mod json;
+mod motion;
 mod svg;
 mod tube;
 mod view;
@@ -17,6 +18,7 @@ mod vtp;
 pub use csv::csv;
 pub use glb::glb;
 pub use json::{PathAnswer, equilibria_json, failure_json, json, path_json};
+pub use motion::{Frame, Moved, motion_csv, motion_json};
 pub use svg::svg;
 pub use vtp::vtp;
 

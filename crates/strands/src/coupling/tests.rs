@@ -86,6 +86,7 @@ fn strand() -> (Problem, Guess) {
         profile: Profile::Given {
             law: Law::Diagonal(stiffness),
             mass_per_length: 0.01,
+            rotational_inertia_per_length: Vec3::ZERO,
             half_extent: [0.002; 2],
         },
         rest: RestShape::Constant(Vec3::new(0.0, 2.0, 1.0)),

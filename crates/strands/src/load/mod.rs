@@ -121,8 +121,8 @@ impl NodalLoads {
     /// Adds the weight in a field of gravity, m/s², world axes.
     #[must_use]
     pub fn with_gravity(mut self, rod: &Rod, gravity: Vec3) -> Self {
-        for (load, mass) in self.world.iter_mut().zip(rod.node_mass()) {
-            load.linear += gravity * *mass;
+        for (load, node) in self.world.iter_mut().zip(rod.node_inertia()) {
+            load.linear += gravity * node.mass;
         }
         self
     }

@@ -8,7 +8,12 @@ fn rod(order: Order) -> Rod {
     let description = RodDescription {
         length: 1.0,
         kinematics: Kinematics::Kirchhoff,
-        profile: Profile::Given { law, mass_per_length: 1.0, half_extent: [0.01; 2] },
+        profile: Profile::Given {
+            law,
+            mass_per_length: 1.0,
+            rotational_inertia_per_length: Vec3::ZERO,
+            half_extent: [0.01; 2],
+        },
         rest: RestShape::default(),
         base: Pose::IDENTITY,
     };

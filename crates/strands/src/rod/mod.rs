@@ -52,6 +52,8 @@ pub enum Profile {
         law: Law,
         /// Mass per unit length, kg/m.
         mass_per_length: f64,
+        /// Rotational inertia per unit length about `d1`, `d2` and `d3`, kg·m. Only motion knows of it.
+        rotational_inertia_per_length: Vec3,
         /// Half the extent along `d1` and `d2`, m, for drawing and contact.
         half_extent: [f64; 2],
     },
@@ -96,9 +98,12 @@ impl RodDescription {
             return Err(RodError::NotAFrame { what: "base" });
         }
         match &self.profile {
-            Profile::Given { law, mass_per_length, half_extent } => {
+            Profile::Given { law, mass_per_length, rotational_inertia_per_length, half_extent } => {
                 law.validate(self.kinematics)?;
                 RodError::not_negative("mass_per_length", *mass_per_length)?;
+                for inertia in rotational_inertia_per_length.to_array() {
+                    RodError::not_negative("rotational_inertia_per_length", inertia)?;
+                }
                 RodError::not_negative("half_extent", half_extent[0])?;
                 RodError::not_negative("half_extent", half_extent[1])
             }
@@ -136,11 +141,16 @@ impl RodDescription {
         Ok(())
     }
 
-    /// The law, mass per length and half extent at `s`, on the side of `towards`.
-    fn at(&self, s: f64, towards: f64) -> (Law, f64, [f64; 2]) {
+    /// What the rod is made of at `s`, on the side of `towards`.
+    fn at(&self, s: f64, towards: f64) -> Slice {
         let stations = match &self.profile {
-            Profile::Given { law, mass_per_length, half_extent } => {
-                return (law.clone(), *mass_per_length, *half_extent);
+            Profile::Given { law, mass_per_length, rotational_inertia_per_length, half_extent } => {
+                return Slice {
+                    law: law.clone(),
+                    mass: *mass_per_length,
+                    rotational: *rotational_inertia_per_length,
+                    half_extent: *half_extent,
+                };
             }
             Profile::Stations(stations) => stations,
         };
@@ -159,9 +169,31 @@ impl RodDescription {
                 (None, Some(b)) => (b.section, b.material),
                 (None, None) => unreachable!("validated: at least one station"),
             };
-        let law = Law::Diagonal(section.stiffness(&material));
-        (law, material.density * section.area(), section.half_extent())
+        let ([i1, i2], density) = (section.second_moments(), material.density);
+        Slice {
+            law: Law::Diagonal(section.stiffness(&material)),
+            mass: density * section.area(),
+            rotational: Vec3::new(i1, i2, i1 + i2) * density,
+            half_extent: section.half_extent(),
+        }
     }
+}
+
+/// What a rod is made of at one place, per unit length.
+struct Slice {
+    law: Law,
+    mass: f64,
+    rotational: Vec3,
+    half_extent: [f64; 2],
+}
+
+/// The inertia that a node carries: a share of the rod about it, lumped.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct NodeInertia {
+    /// Mass, kg.
+    pub mass: f64,
+    /// Rotational inertia about the node's `d1`, `d2` and `d3`, kg·m².
+    pub rotational: Vec3,
 }
 
 /// The law and the rest strain at one place of an element.
@@ -181,7 +213,7 @@ pub struct Rod {
     mesh: Mesh,
     points: Vec<Point>,
     diagonal: Option<Vec<DiagonalPoint>>,
-    node_mass: Vec<f64>,
+    node_inertia: Vec<NodeInertia>,
     half_extent: Vec<[f64; 2]>,
     scale: Scale,
 }
@@ -214,7 +246,7 @@ impl Rod {
             for place in order.places() {
                 let s = pair[0] + place * (pair[1] - pair[0]);
                 let rest = Strain::new(description.rest.curvature(s, middle), Vec3::Z);
-                points.push(Point { rest, law: description.at(s, middle).0 });
+                points.push(Point { rest, law: description.at(s, middle).law });
             }
         }
         let per_element = order.places().len();
@@ -225,11 +257,13 @@ impl Rod {
                 DiagonalPoint::new(description.kinematics, h, point)
             })
             .collect();
-        let mut node_mass = vec![0.0; mesh.nodes().len()];
+        let mut node_inertia = vec![NodeInertia { mass: 0.0, rotational: Vec3::ZERO }; mesh.nodes().len()];
         mesh.distribute(order, 0.0, description.length, |node, s, towards, weight| {
-            node_mass[node] += weight * description.at(s, towards).1;
+            let slice = description.at(s, towards);
+            node_inertia[node].mass += weight * slice.mass;
+            node_inertia[node].rotational += slice.rotational * weight;
         });
-        let half_extent = mesh.nodes().iter().map(|&s| description.at(s, s).2).collect();
+        let half_extent = mesh.nodes().iter().map(|&s| description.at(s, s).half_extent).collect();
         let bending: f64 = points
             .iter()
             .map(|point| {
@@ -240,7 +274,7 @@ impl Rod {
             / points.len() as f64;
         let length = description.length;
         let scale = Scale { length, moment: bending / length, force: bending / (length * length) };
-        Ok(Self { description, order, mesh, points, diagonal, node_mass, half_extent, scale })
+        Ok(Self { description, order, mesh, points, diagonal, node_inertia, half_extent, scale })
     }
 
     /// A rod of equal elements, with nodes at its own steps and at further `breaks`.
@@ -317,9 +351,14 @@ impl Rod {
         self.diagonal.as_deref()
     }
 
-    /// The mass that each node carries, kg.
-    pub fn node_mass(&self) -> &[f64] {
-        &self.node_mass
+    /// The rod's mass, kg.
+    pub fn mass(&self) -> f64 {
+        self.node_inertia.iter().map(|node| node.mass).sum()
+    }
+
+    /// The inertia that each node carries.
+    pub fn node_inertia(&self) -> &[NodeInertia] {
+        &self.node_inertia
     }
 
     /// Half the extent along `d1` and `d2` at each node, m.

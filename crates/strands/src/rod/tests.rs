@@ -58,7 +58,7 @@ fn a_taper_is_linear_and_a_step_is_a_break() {
     assert_eq!(rod.mesh().spans().len(), 2);
     // The frustum's volume plus the thin part's, by the trapezoidal rule.
     let exact = core::f64::consts::PI * (0.6 * (4.0 + 2.0 + 1.0) / 3.0 + 0.4 * 0.25) * 1e-6 * 1000.0;
-    let mass: f64 = rod.node_mass().iter().sum();
+    let mass = rod.mass();
     assert!((mass / exact - 1.0).abs() < 2e-3, "{mass} {exact}");
 }
 
@@ -92,7 +92,12 @@ fn gap_of_the_end(n: usize, curve: impl Fn(f64) -> Vec3) -> f64 {
     let description = RodDescription {
         length: rest.length,
         kinematics: Kinematics::Kirchhoff,
-        profile: Profile::Given { law, mass_per_length: 0.0, half_extent: [0.0; 2] },
+        profile: Profile::Given {
+            law,
+            mass_per_length: 0.0,
+            rotational_inertia_per_length: Vec3::ZERO,
+            half_extent: [0.0; 2],
+        },
         rest: rest.shape,
         base: rest.start,
     };
@@ -157,7 +162,12 @@ fn a_rod_of_numbers_that_are_none_is_refused() {
         RodDescription { profile: Profile::Stations(vec![Station { s: 0.0, section, material }]), ..good() }
     };
     let given = |law: Law, mass_per_length: f64, width: f64| {
-        let profile = Profile::Given { law, mass_per_length, half_extent: [width, 0.0] };
+        let profile = Profile::Given {
+            law,
+            mass_per_length,
+            rotational_inertia_per_length: Vec3::ZERO,
+            half_extent: [width, 0.0],
+        };
         RodDescription { profile, ..good() }
     };
     let rest = |rest: RestShape| RodDescription { rest, ..good() };

@@ -28,7 +28,10 @@ mod sweep;
 mod variation;
 
 pub use batch::{Batch, BatchError};
+pub(crate) use boundary::meet;
 pub use continuation::{Event, EventKind, Path, PathEnd, PathError, PathPoint, PathSettings, follow_path};
+pub(crate) use march::Record;
+pub(crate) use nodal::{Inertial, Motion, Nodal};
 pub use plan::{Plan, plan};
 pub use problem::{Problem, Stretch, Support};
 pub use refine::{RefineError, Refined, refine};
@@ -38,12 +41,12 @@ pub use solution::{
     Energy, FailureReason, Guess, Jacobian, Method, Reaction, Scheme, Settings, Solution, SolveFailure,
     SolveReport,
 };
+pub(crate) use stability::rigid_compliance;
 pub use stability::{UnstableMode, unstable_mode};
 
 use crate::math::{Pose, Vec3, Vec6, Wrench};
 use crate::rod::{Kinematics, Order};
 use boundary::{EndState, loaded_start};
-use march::Record;
 use plan::Way;
 use shooting::{Outcome, Search, shoot};
 

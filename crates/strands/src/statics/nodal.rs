@@ -107,6 +107,25 @@ pub(crate) struct Distance {
     pub slack: f64,
 }
 
+/// What motion adds to a rod at rest.
+pub(crate) struct Motion<'a> {
+    /// The laws of its elements, with what their rates add.
+    pub points: &'a [DiagonalPoint],
+    /// Of each node.
+    pub inertial: &'a [Inertial],
+}
+
+/// What the change of its momentum exerts on a node.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Inertial {
+    /// That, about the node, world axes, N·m and N.
+    pub exerts: Wrench,
+    /// How its moment changes with a turn of the node, N·m.
+    pub by_turn: Mat3,
+    /// How its moment (N) and force (N/m) change with a shift.
+    pub by_shift: [Mat3; 2],
+}
+
 impl Distance {
     /// The larger of the two; NaN where either is.
     pub fn residual(&self) -> f64 {
@@ -125,7 +144,20 @@ impl Nodal {
         state: &mut Record,
     ) -> Option<Distance> {
         self.axes = Axes::new(problem, state);
-        self.linearise_in_its_axes(problem, level, lent, state)
+        self.linearise_in_its_axes(problem, level, lent, None, state)
+    }
+
+    /// The same of a rod that moves, about its state at some time.
+    pub fn linearise_moving(
+        &mut self,
+        problem: &Problem,
+        level: SimdLevel,
+        lent: f64,
+        motion: &Motion,
+        state: &mut Record,
+    ) -> Option<Distance> {
+        self.axes = Axes::new(problem, state);
+        self.linearise_in_its_axes(problem, level, lent, Some(motion), state)
     }
 
     fn linearise_in_its_axes(
@@ -133,6 +165,7 @@ impl Nodal {
         problem: &Problem,
         level: SimdLevel,
         lent: f64,
+        motion: Option<&Motion>,
         state: &mut Record,
     ) -> Option<Distance> {
         let axes = self.axes;
@@ -141,7 +174,7 @@ impl Nodal {
         self.links.clear();
         let rod = &problem.rod;
         let points = if rod.order() == Order::Second { rod.diagonal_points() } else { None };
-        let slack = match points {
+        let slack = match motion.map(|motion| motion.points).or(points) {
             Some(points) => {
                 let links = &mut self.links;
                 dispatch(level, Linearise { rod, points, axes: &axes, lent, state, links })
@@ -149,6 +182,10 @@ impl Nodal {
             None => self.linearise_any(rod, &axes, lent, state)?,
         };
         self.load(problem, &axes, state);
+        if let Some(motion) = motion {
+            self.move_with(motion.inertial, &axes);
+        }
+        self.load_slopes.sort_unstable_by_key(|(node, _)| *node);
         self.holds.clear();
         for (node, end) in problem.supports() {
             let pose = axes.frame(&state.poses[node]);
@@ -218,7 +255,28 @@ impl Nodal {
             let by_shift = by_shift.scaled(axes.length / axes.force);
             self.load_slopes.push((node, force_slope(at, [by_turn, by_shift]).to_rows()));
         }
-        self.load_slopes.sort_unstable_by_key(|(node, _)| *node);
+    }
+
+    /// What the change of its momentum exerts on each node.
+    fn move_with(&mut self, inertial: &[Inertial], axes: &Axes) {
+        for (i, node) in inertial.iter().enumerate() {
+            let (at, exerts) = (self.places[i], axes.wrench(node.exerts));
+            self.loads[i] += Wrench::new(exerts.angular + at.cross(exerts.linear), exerts.linear);
+            let by_turn = node.by_turn.scaled(1.0 / axes.moment);
+            let moment = node.by_shift[0].scaled(axes.length / axes.moment);
+            let force = node.by_shift[1].scaled(axes.length / axes.force);
+            let mut slope = force_slope(at, [by_turn, force]);
+            slope.blocks[0][0] = slope.blocks[0][0] - moment * Mat3::hat(at);
+            slope.blocks[0][1] = slope.blocks[0][1] + moment;
+            self.load_slopes.push((i, slope.to_rows()));
+        }
+    }
+
+    /// What acts on a node that is out of balance, in the world about itself: what its support bears, with the opposite sign, or what is left of a
+    /// search.
+    pub fn left_over(&self, node: usize) -> Wrench {
+        let w = self.imbalance(node);
+        self.axes.in_units(Wrench::new(w.angular - self.places[node].cross(w.linear), w.linear))
     }
 
     /// By what a node is out of balance, about itself, without what its hold takes.
@@ -241,7 +299,7 @@ impl Nodal {
         scratch: &mut Self,
     ) -> Option<()> {
         scratch.axes = self.axes;
-        scratch.linearise_in_its_axes(problem, level, lent, moved)?;
+        scratch.linearise_in_its_axes(problem, level, lent, None, moved)?;
         let slope = |there: Wrench, here: Wrench| (there - here) * (1.0 / step);
         let mut others = core::mem::take(&mut self.others);
         others.clear();

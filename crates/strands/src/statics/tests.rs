@@ -25,6 +25,7 @@ fn description(kinematics: Kinematics, rest: RestShape) -> RodDescription {
         profile: Profile::Given {
             law: Law::Diagonal(stiffness),
             mass_per_length: 0.02,
+            rotational_inertia_per_length: Vec3::ZERO,
             half_extent: [0.002; 2],
         },
         rest,
@@ -385,6 +386,7 @@ fn a_stiffening_rod_bends_less_and_keeps_its_balance() {
     description.profile = Profile::Given {
         law: Law::Hyperelastic(std::sync::Arc::new(energy)),
         mass_per_length: 0.02,
+        rotational_inertia_per_length: Vec3::ZERO,
         half_extent: [0.002; 2],
     };
     let stiffening =

@@ -11,6 +11,7 @@ fn pinned_column(base: Pose, elements: usize, bending: [f64; 2], part: f64) -> P
         profile: Profile::Given {
             law: Law::Diagonal(stiffness),
             mass_per_length: 0.0,
+            rotational_inertia_per_length: Vec3::ZERO,
             half_extent: [0.001; 2],
         },
         base,

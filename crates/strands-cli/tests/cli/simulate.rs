@@ -1,0 +1,72 @@
+//! `strands simulate`.
+
+use crate::common::{folder, strands};
+use serde_json::Value;
+
+const FALL: [&str; 4] = ["simulate", "cantilever.toml", "--set", "dynamics.start=\"rest\""];
+
+#[test]
+fn frames_are_what_was_promised() {
+    let run = strands(&[FALL.as_slice(), &["--seconds", "0.1", "--every", "0.025", "--json"]].concat());
+    assert_eq!((run.code, run.err.as_str()), (0, ""));
+    let answer: Value = serde_json::from_str(&run.out).expect("one JSON value and nothing else");
+    assert_eq!(answer["status"], "finished");
+    assert_eq!(answer["steps"], 100);
+    assert!(answer["real_time_factor"].as_f64().unwrap() > 0.0);
+    let frames = answer["frames"].as_array().unwrap();
+    let times: Vec<f64> = frames.iter().map(|frame| frame["t"].as_f64().unwrap()).collect();
+    for (time, expected) in times.iter().zip([0.0, 0.025, 0.05, 0.075, 0.1]) {
+        assert!((time - expected).abs() < 1e-9, "{times:?}");
+    }
+    assert_eq!(times.len(), 5);
+    let last = &frames[4];
+    let energy = |key: &str| last["energy"][key].as_f64().unwrap();
+    assert!(energy("kinetic") > 0.0 && energy("elastic") > 0.0 && energy("gravity") < 0.0);
+    assert_eq!(energy("dissipated"), 0.0);
+    assert!(last["newton_iterations"].as_u64().unwrap() >= 25);
+    assert!(last["residual"].as_f64().unwrap() < 1e-9);
+    let beam = &last["rods"]["beam"];
+    for key in ["s", "position", "orientation", "velocity", "angular_velocity"] {
+        assert_eq!(beam[key].as_array().unwrap().len(), 41, "{key}");
+    }
+    assert!(beam["velocity"][40][2].as_f64().unwrap() < -0.1, "it falls");
+}
+
+#[test]
+fn a_rod_starts_in_equilibrium_and_stays() {
+    let run = strands(&["simulate", "cantilever.toml", "--seconds", "0.05", "--json"]);
+    let answer: Value = serde_json::from_str(&run.out).unwrap();
+    let frames = answer["frames"].as_array().unwrap();
+    let end = |frame: &Value| frame["rods"]["beam"]["position"][40][2].as_f64().unwrap();
+    assert!((end(&frames[0]) - end(frames.last().unwrap())).abs() < 1e-9);
+}
+
+#[test]
+fn a_table_says_how_it_went_and_files_are_written() {
+    let file = folder("simulate").join("fall.csv");
+    let output = ["--seconds", "0.05", "-o", file.to_str().unwrap()];
+    let run = strands(&[FALL.as_slice(), &output].concat());
+    assert_eq!((run.code, run.err.as_str()), (0, ""));
+    assert!(run.out.contains("50 steps of 1.000 ms by bdf2"), "{}", run.out);
+    assert!(run.out.contains("times as fast as real time"), "{}", run.out);
+    let csv = std::fs::read_to_string(&file).unwrap();
+    assert!(csv.starts_with("t,rod,s,x,y,z,qw,qx,qy,qz,vx,vy,vz,wx,wy,wz\n0,beam,0,"), "{csv:.100}");
+    assert_eq!((csv.lines().count() - 1) % 41, 0);
+}
+
+#[test]
+fn what_cannot_be_simulated_is_said() {
+    for (set, said) in [
+        ("dynamics.integrator=\"midpoint\"", "is not there yet"),
+        ("dynamics.start=\"there\"", "neither \"equilibrium\" nor \"rest\""),
+        ("dynamics.tolerance=1e-3", "give `time_step`"),
+        ("solver.order=4", "order 2"),
+        ("materials.rubber.density=0.0", "has no mass"),
+    ] {
+        let run = strands(&["simulate", "cantilever.toml", "--set", set]);
+        assert_eq!((run.code, run.out.as_str()), (1, ""), "{set}");
+        assert!(run.err.contains(said), "{}", run.err);
+    }
+    let run = strands(&["simulate", "cantilever.toml", "-o", "fall.vtp"]);
+    assert!(run.code == 1 && run.err.contains(".json .csv"), "{}", run.err);
+}

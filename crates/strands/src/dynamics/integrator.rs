@@ -1,0 +1,98 @@
+//! Integrators in time, as coefficients of one equation.
+//!
+//! All of them solve, once or several times a step, for frames at which momentum has changed by what acts there. With `q` the canonical coordinates of a
+//! node's frame about that at the step's beginning, a rotation vector `θ` and a shift, and the momentum `Π` of the node about a fixed place, a stage is
+//!
+//! ```text
+//! q = Δ + a q̇,   Π = Π̂ + a W(q)
+//! ```
+//!
+//! where `W` is all that acts on the node but inertia, and `Δ`, `Π̂` and `a` are known. Its angular velocity is `T(θ) θ̇` in its own axes. `q` and `Π` live
+//! in vector spaces, so a method keeps the order that it has there (Munthe-Kaas 1998), and the sum of `Π` over all nodes changes by nothing but what
+//! acts from outside.
+
+/// How a step in time is made.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Integrator {
+    /// Backward Euler, of order 1: it takes energy out of all that is faster than a few steps.
+    ImplicitEuler,
+    /// Backward differences of order 2. The first step is one of [`Integrator::Sdirk4`].
+    Bdf2,
+    /// The singly diagonally implicit Runge–Kutta method of order 4 with five stages, L-stable (Hairer & Wanner, *Solving Ordinary
+    /// Differential Equations II*, table IV.6.5).
+    Sdirk4,
+}
+
+impl Integrator {
+    /// Its name in scene files and answers.
+    pub const fn name(self) -> &'static str {
+        match self {
+            Self::ImplicitEuler => "implicit_euler",
+            Self::Bdf2 => "bdf2",
+            Self::Sdirk4 => "sdirk4",
+        }
+    }
+}
+
+/// A diagonally implicit Runge–Kutta method whose last stage is the step.
+pub(super) struct RungeKutta {
+    /// What stands on the diagonal.
+    pub diagonal: f64,
+    /// What stands before it, row by row.
+    pub before: &'static [&'static [f64]],
+}
+
+pub(super) const IMPLICIT_EULER: RungeKutta = RungeKutta { diagonal: 1.0, before: &[&[]] };
+
+pub(super) const SDIRK4: RungeKutta = RungeKutta {
+    diagonal: 0.25,
+    before: &[
+        &[],
+        &[0.5],
+        &[17.0 / 50.0, -1.0 / 25.0],
+        &[371.0 / 1360.0, -137.0 / 2720.0, 15.0 / 544.0],
+        &[25.0 / 24.0, -49.0 / 48.0, 125.0 / 16.0, -85.0 / 12.0],
+    ],
+};
+
+#[cfg(test)]
+mod tests {
+    use super::{IMPLICIT_EULER, RungeKutta, SDIRK4};
+
+    /// `Σ b c^k` is `1/(k + 1)`, and the two conditions with products of the matrix, up to order 4 (Hairer, Nørsett & Wanner, II.2).
+    fn order(method: &RungeKutta) -> usize {
+        let stages = method.before.len();
+        let a = |i: usize, j: usize| match j.cmp(&i) {
+            core::cmp::Ordering::Less => method.before[i][j],
+            core::cmp::Ordering::Equal => method.diagonal,
+            core::cmp::Ordering::Greater => 0.0,
+        };
+        let b: Vec<f64> = (0..stages).map(|j| a(stages - 1, j)).collect();
+        let times = |x: &[f64]| -> Vec<f64> {
+            (0..stages).map(|i| (0..stages).map(|j| a(i, j) * x[j]).sum()).collect()
+        };
+        let c = times(&vec![1.0; stages]);
+        let product = |x: &[f64], y: &[f64]| -> Vec<f64> { x.iter().zip(y).map(|(x, y)| x * y).collect() };
+        let sum = |x: &[f64]| -> f64 { product(&b, x).iter().sum() };
+        let (c2, ac) = (product(&c, &c), times(&c));
+        let conditions: [&[(f64, f64)]; 4] = [
+            &[(sum(&vec![1.0; stages]), 1.0)],
+            &[(sum(&c), 0.5)],
+            &[(sum(&c2), 1.0 / 3.0), (sum(&ac), 1.0 / 6.0)],
+            &[
+                (sum(&product(&c2, &c)), 0.25),
+                (sum(&product(&c, &ac)), 0.125),
+                (sum(&times(&c2)), 1.0 / 12.0),
+                (sum(&times(&ac)), 1.0 / 24.0),
+            ],
+        ];
+        let met = |of: &&&[(f64, f64)]| of.iter().all(|(got, wanted)| (got - wanted).abs() < 1e-14);
+        conditions.iter().take_while(met).count()
+    }
+
+    #[test]
+    fn methods_have_the_order_that_they_are_said_to_have() {
+        assert_eq!(order(&IMPLICIT_EULER), 1);
+        assert_eq!(order(&SDIRK4), 4);
+    }
+}
