@@ -10,6 +10,7 @@ use std::hint::black_box;
 use std::time::Instant;
 
 use serde::Serialize;
+use strands::dynamics::{self, Integrator, Simulation, SimulationError, Start, StepFailure};
 use strands::math::{Pose, SimdLevel, Wrench};
 use strands::rod::{Kinematics, Order, RodError};
 use strands::statics::{
@@ -36,6 +37,12 @@ Figures (of a steel wire 0.5 m long, 2 mm thick, where no other is named; one th
   batch.rod batch.faster           as equilibrium.warm, of eight rods followed side by side, each with a
                                    hand of its own, µs for one of them; and how many times faster than
                                    one after the other, in the same run
+  motion.bdf2 motion.sdirk4        the wire, clamped, straight at first, falls: one step of 2 ms, 100
+                                   elements, µs; with .error, how far its tip is from its modes, root
+                                   mean square over the first second, % of what it sinks by at rest
+  motion.iteration.100 .1000 .10000
+                                   of a step of 1 ms by bdf2, what one Newton iteration takes on that many
+                                   elements, ns for each of a node's six numbers
   jacobian.variational_lanes .variational .finite_differences .finite_difference_lanes
                                    one Jacobian, over one sweep of the same rod, from times of
                                    whole solves; by finite differences it is six sweeps, which
@@ -75,6 +82,12 @@ pub enum BenchError {
     /// Rods could not be put side by side.
     #[error(transparent)]
     Batch(#[from] BatchError),
+    /// A rod could not be simulated.
+    #[error(transparent)]
+    Motion(#[from] SimulationError),
+    /// A step could not be made.
+    #[error(transparent)]
+    Step(#[from] StepFailure),
     /// Instructions could not be counted.
     #[error("{0}")]
     Count(String),
@@ -90,6 +103,7 @@ pub fn measure() -> Result<Vec<Figure>, BenchError> {
     figures.extend(warm()?);
     figures.extend(all_at_once()?);
     figures.extend(side_by_side()?);
+    figures.extend(motion()?);
     figures.extend(jacobians()?);
     figures.extend(cost()?);
     figures.extend(workloads()?);
@@ -109,6 +123,42 @@ pub fn table(figures: &[Figure], level: SimdLevel) -> String {
 
 fn figure(name: impl Into<String>, value: f64, unit: &'static str) -> Figure {
     Figure { name: name.into(), value, unit }
+}
+
+/// The wire falls: the workload W-F of the peers.
+fn motion() -> Result<Vec<Figure>, BenchError> {
+    let fall = |integrator, elements, time_step| -> Result<Simulation, BenchError> {
+        let settings = dynamics::Settings { integrator, time_step, ..dynamics::Settings::default() };
+        Ok(Simulation::new(problems::falling(elements)?, settings, Start::Rest)?)
+    };
+    let mut figures = Vec::new();
+    for integrator in [Integrator::Bdf2, Integrator::Sdirk4] {
+        let mut simulation = fall(integrator, ELEMENTS, 2e-3)?;
+        let (mut times, mut squares) = (Vec::new(), 0.0);
+        while times.len() < 500 {
+            let start = Instant::now();
+            let step = black_box(simulation.step()?);
+            times.push(start.elapsed().as_secs_f64());
+            let tip = simulation.state().poses[ELEMENTS].position.x;
+            squares += (tip / problems::sag() - problems::fallen(step.time)).powi(2);
+        }
+        let error = (squares / times.len() as f64).sqrt();
+        let name = format!("motion.{}", integrator.name());
+        figures.push(figure(name.clone(), clock::quantile(&mut times, 0.5) * 1e6, "µs"));
+        figures.push(figure(format!("{name}.error"), error * 100.0, "%"));
+    }
+    for (elements, steps) in [(100, 500), (1_000, 50), (10_000, 5)] {
+        let mut simulation = fall(Integrator::Bdf2, elements, 1e-3)?;
+        simulation.step()?;
+        let (start, mut iterations) = (Instant::now(), 0);
+        for _ in 0..steps {
+            iterations += black_box(simulation.step()?).iterations;
+        }
+        let scalars = iterations as f64 * 6.0 * (elements + 1) as f64;
+        let time = start.elapsed().as_secs_f64() * 1e9 / scalars;
+        figures.push(figure(format!("motion.iteration.{elements}"), time, "ns"));
+    }
+    Ok(figures)
 }
 
 /// Rods drawn at random, each solved once, from rest.

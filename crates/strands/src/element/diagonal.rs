@@ -613,7 +613,8 @@ pub(crate) fn diagonal_resistance<R: Real>(
     far: &Pose<Vec3<R>>,
 ) -> Resistance<R> {
     let element = Turned::new(x, w);
-    // T⁻¹ seen from the fixed axes: its blocks on the diagonal and the one below. For `p^ T` is in what lies below in T, `T⁻¹ p^` is in that.
+    // T⁻¹ seen from the fixed axes. With T's blocks `D` on its diagonal and `S` below, and `R` and `p` the far node's, those are `D⁻¹ Rᵀ` on the
+    // diagonal and `−(D⁻¹ S D⁻¹ Rᵀ + D⁻¹ Rᵀ p^)` below.
     let tangent = element.turn.inverse();
     let inverse = tangent * far.rotation.transpose();
     let ([a, b, c], p) = (inverse.cols, far.position);

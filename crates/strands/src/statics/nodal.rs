@@ -237,6 +237,7 @@ impl Nodal {
                 let carried = axes.frame(pose).carry_wrench(body);
                 load += carried;
                 slope = slope.add(&element::coadjoint_by_strain(carried));
+                // The elimination adds that of every force that acts.
                 let dead = Mat6 { blocks: [dead_moment_slope(at, carried.linear), [Mat3::ZERO; 2]] };
                 slope = slope.add(&dead.scaled(-1.0));
             }

@@ -47,7 +47,9 @@ impl<R: Register> Kernel for Eliminate<'_, R> {
         // What the nodes before take from the pivot, and add to what acts. One rod starts from the former, negated; several subtract it. So too one
         // rod's block is local, to stay in registers, and those of several are in their places: each is the faster way by a tenth.
         let mut earlier = [[R::zero(); 8]; 6];
+        // Of all rods.
         let no_drag = R::all(drag.abs().at_most(0.0));
+        debug_assert!(others.is_empty() || others.len() == n + 1);
         let (mut next_hold, mut next_slope) = (0, 0);
         for i in 0..=n {
             let mut pivot = [[R::zero(); 6]; 6];

@@ -318,6 +318,7 @@ impl<R: Wide> Kernel for LineariseAll<'_, R> {
                 acts += carried;
                 let mut slope = [[zero; 6]; 6];
                 add_coadjoint(&mut slope, carried);
+                // The elimination adds that of every force that acts.
                 subtract_dead_moment_slope(&mut slope, at, carried.linear);
                 system.load_slopes.push((i, slope));
             }
