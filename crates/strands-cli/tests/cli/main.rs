@@ -228,3 +228,11 @@ fn elements_too_long_for_the_tension_are_told_of_and_as_many_as_advised_do() {
     let run = strands(&[taut.as_slice(), &["rods.thread.elements=160"]].concat());
     assert!(run.out.contains("stable equilibrium"), "{}", run.out);
 }
+
+#[test]
+fn an_inextensible_rod_in_twelve_clips_is_found_from_where_one_that_stretches_rests() {
+    // Turned by half a turn from one clip to the next, with a hundredth to spare.
+    let run = strands(&["solve", "twelve_clips.json"]);
+    assert_eq!((run.code, run.err.as_str()), (0, ""));
+    assert!(run.out.contains("stable equilibrium"), "{}", run.out);
+}

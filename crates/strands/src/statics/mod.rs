@@ -280,7 +280,7 @@ fn from_rest(
     report: &mut SolveReport,
 ) -> Search {
     match plan(problem, settings, None).way {
-        Way::Settle => return by_moving_or_segments(problem, settings, workspace, report),
+        Way::Settle => return by_moving_or_else(problem, settings, workspace, report),
         Way::Segments => return multiple_shooting::from_rest(problem, settings, workspace, report),
         _ => {}
     }
@@ -289,12 +289,12 @@ fn from_rest(
     if search.outcome == Outcome::Converged || settings.method != Method::Auto {
         return search;
     }
-    by_moving_or_segments(problem, settings, workspace, report)
+    by_moving_or_else(problem, settings, workspace, report)
 }
 
-/// Lets the rod move to where it rests, and where it does not come to rest (loads that follow it may keep it moving, and round-off where it is taut)
-/// looks for an equilibrium, stable or not, by multiple shooting.
-fn by_moving_or_segments(
+/// Lets the rod move to where it rests, and where it does not come to rest tries what else there is: multiple shooting, for an equilibrium, stable or
+/// not, under loads that follow it and may keep it moving, and where it is taut; and of a rod that cannot stretch, from where it rests if it can.
+fn by_moving_or_else(
     problem: &Problem,
     settings: &Settings,
     workspace: &mut Workspace,
@@ -302,17 +302,28 @@ fn by_moving_or_segments(
 ) -> Search {
     let moved = by_moving(problem, settings, workspace, report);
     let given_up = moved.outcome != Outcome::Converged && settings.method == Method::Auto;
-    if !(given_up && problem.can_be_shot() && settings.scheme == Scheme::Element) {
+    if !given_up || settings.scheme != Scheme::Element || !has_energy(problem, settings) {
         return moved;
     }
-    let (record, residual, method) = (workspace.record.clone(), report.residual, report.method);
-    let shot = multiple_shooting::from_rest(problem, settings, workspace, report);
-    if shot.outcome == Outcome::Converged {
-        return shot;
+    let (record, residual) = (workspace.record.clone(), report.residual);
+    if problem.can_be_shot() {
+        let shot = multiple_shooting::from_rest(problem, settings, workspace, report);
+        if shot.outcome == Outcome::Converged {
+            return shot;
+        }
     }
-    // What the rod came to is nearer to an equilibrium than what the shots did.
+    if let Some(twin) = problem.that_stretches() {
+        let rests = equilibrium::from_rest(&twin, settings, workspace, report);
+        if rests.outcome == Outcome::Converged {
+            let stiffened = equilibrium::move_on(problem, settings, workspace, report);
+            if stiffened.outcome == Outcome::Converged {
+                return stiffened;
+            }
+        }
+    }
+    // What the rod came to is nearer to an equilibrium than what came of these.
     workspace.record = record;
-    (report.residual, report.method) = (residual, method);
+    (report.residual, report.method) = (residual, Method::Equilibrium);
     moved
 }
 

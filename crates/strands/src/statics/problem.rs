@@ -3,7 +3,7 @@
 use crate::coupling::Grip;
 use crate::load::NodalLoads;
 use crate::math::{Mat3, Pose, Vec3};
-use crate::rod::Rod;
+use crate::rod::{Kinematics, Rod, RodDescription};
 
 /// How a node is held.
 ///
@@ -169,6 +169,17 @@ impl Problem {
     /// The same on elements of order 2.
     pub(crate) fn of_second_order(&self) -> Self {
         Self { rod: self.rod.clone().of_second_order(), ..self.clone() }
+    }
+
+    /// The same of a rod that stretches and shears as its section does, where this one does not.
+    pub(crate) fn that_stretches(&self) -> Option<Self> {
+        let (rod, description) = (&self.rod, self.rod.description());
+        if description.kinematics == Kinematics::Cosserat {
+            return None;
+        }
+        let description = RodDescription { kinematics: Kinematics::Cosserat, ..description.clone() };
+        let rod = Rod::new(description, rod.mesh().clone(), rod.order()).ok()?;
+        Some(Self { rod, ..self.clone() })
     }
 
     /// A rod clamped at its base frame, its other end free, nothing acting on it.
