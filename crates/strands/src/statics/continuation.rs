@@ -16,6 +16,7 @@ use super::solution::{Method, Settings, Solution, SolveFailure, SolveReport};
 use super::stability::{morse_index, rigid_compliance, strength};
 use super::{fit, solution, solve};
 use crate::math::{SimdLevel, Vec6, Wrench};
+use crate::rod::Order;
 use thiserror::Error;
 
 /// How to follow a path.
@@ -108,6 +109,9 @@ pub enum PathError<E> {
 
 /// The parameter's step for differences.
 const DIFFERENCE: f64 = 1e-6;
+/// The same on elements of order 4. A support that is shifted by it stretches one element, whose equation is not linear in its slack as that of order 2
+/// is: with longer steps the tangents on either side differ.
+const DIFFERENCE_OF_FOURTH_ORDER: f64 = 1e-8;
 /// Iterations that a point may take; after more, the step was too long.
 const MOST_ITERATIONS: usize = 12;
 /// A point that takes no more is a reason for a longer step.
@@ -217,6 +221,17 @@ impl Tangent {
     }
 }
 
+/// What ends a path at an infinite tension.
+const STRAIGHT: &str =
+    "the rod is pulled straight, and its tension grows without bound: beyond lies what it cannot reach";
+
+/// Whether a rod is so taut that it bends over less than an element.
+fn is_straight(here: &Point) -> bool {
+    let (rod, scale) = (&here.problem.rod, here.problem.rod.scale());
+    let bending_length = scale.length * (scale.force / here.record.largest_force()).sqrt();
+    bending_length * (rod.elements() as f64) < scale.length
+}
+
 /// Whether more stabilities change than a path can lose at once: from an infinite tension a step leads to an infinite pressure.
 fn leaps(here: &Point, next: &Point) -> bool {
     matches!((here.index, next.index), (Some(a), Some(b)) if a.abs_diff(b) > MOST_AT_ONCE)
@@ -245,6 +260,7 @@ impl Follower<'_> {
             let (next, taken) = match self.step_adapted(&here, step) {
                 Ok(found) => found,
                 Err(why) => {
+                    let why = if is_straight(&here) { STRAIGHT.into() } else { why };
                     path.end = PathEnd::Stuck { why };
                     break;
                 }
@@ -314,7 +330,7 @@ impl Follower<'_> {
             match self.step(here, step) {
                 Ok(next) if leaps(here, &next) => {
                     if step < SHORTEST_TO_LEAP * self.settings.largest_step {
-                        return Err("the rod is pulled straight, and its tension grows without bound: beyond lies what it cannot reach".into());
+                        return Err(STRAIGHT.into());
                     }
                     step *= 0.5;
                 }
@@ -429,7 +445,9 @@ impl Follower<'_> {
         nodal: &mut Nodal,
     ) -> Result<(), String> {
         // Towards the inside, beyond which the family may not exist.
-        let step = if at > 0.5 { -DIFFERENCE } else { DIFFERENCE };
+        let fourth = problem.rod.order() == Order::Fourth;
+        let step = if fourth { DIFFERENCE_OF_FOURTH_ORDER } else { DIFFERENCE };
+        let step = if at > 0.5 { -step } else { step };
         let there = (self.family)(at + step)?;
         if there.rod.elements() != problem.rod.elements() {
             return Err("the number of elements changes along the path".into());
