@@ -21,6 +21,8 @@
 //!
 //! [`bank`] has rods drawn at random, to find what a solver cannot do.
 //!
+//! [`falling`] is a wire that swings under its weight, of which the motion is known.
+//!
 //! [`wild`] has problems that nobody would pose, to find what breaks a solver.
 //!
 //! [`workloads`] are long runs of problems, each next to the one before, as an interactive program has them.
@@ -32,6 +34,7 @@ mod case;
 mod columns;
 mod critical;
 mod expected;
+pub mod falling;
 mod heavy;
 mod lateral;
 mod planar;

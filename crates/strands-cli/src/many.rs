@@ -87,7 +87,7 @@ fn list(model: &Model, name: &str, found: &[Solution], seconds: f64) -> String {
             out,
             "  {:>3}  {:>14}  {:<24} ({:.4}, {:.4}, {:.4}){circle}",
             i + 1,
-            engineering(energy(solution), "J"),
+            engineering(solution.energy.total(), "J"),
             stability(solution.report.morse_index),
             middle.x,
             middle.y,
@@ -97,14 +97,10 @@ fn list(model: &Model, name: &str, found: &[Solution], seconds: f64) -> String {
     out
 }
 
-fn energy(solution: &Solution) -> f64 {
-    solution.energy.elastic + solution.energy.load
-}
-
 /// Whether two are one shape that lies otherwise, as far as energies tell.
 fn same_energy(a: &Solution, b: &Solution) -> bool {
     let size = a.energy.elastic.abs() + a.energy.load.abs();
-    (energy(a) - energy(b)).abs() <= 1e-7 * size
+    (a.energy.total() - b.energy.total()).abs() <= 1e-7 * size
 }
 
 fn stability(index: Option<usize>) -> String {
@@ -209,7 +205,7 @@ fn table(model: &Model, way: &Way, found: &Path, points: &[PathAnswer<'_>]) -> S
             out,
             "  {:<30} {:>14}  {:<24} ({:.4}, {:.4}, {:.4})",
             short(&point.value),
-            engineering(energy(solution), "J"),
+            engineering(solution.energy.total(), "J"),
             stability(solution.report.morse_index),
             end.x,
             end.y,

@@ -427,7 +427,7 @@ impl State {
             "path_steps": report.path_steps,
             "morse_index": report.morse_index,
             "elements": solution.strain.len(),
-            "energy": solution.energy.elastic + solution.energy.load,
+            "energy": solution.energy.total(),
             "elastic_energy": solution.energy.elastic,
             "saturated": saturated,
             "start": start,

@@ -17,7 +17,7 @@ use strands::statics::{
     Batch, BatchError, Guess, Jacobian, Method, Problem, Scheme, Settings, Solution, SolveFailure,
     SolveReport, Workspace, follow, solve,
 };
-use strands_cases::bank;
+use strands_cases::{bank, falling};
 
 /// What `--help` says about the figures.
 pub const NAMES: &str = "\
@@ -129,7 +129,7 @@ fn figure(name: impl Into<String>, value: f64, unit: &'static str) -> Figure {
 fn motion() -> Result<Vec<Figure>, BenchError> {
     let fall = |integrator, elements, time_step| -> Result<Simulation, BenchError> {
         let settings = dynamics::Settings { integrator, time_step, ..dynamics::Settings::default() };
-        Ok(Simulation::new(problems::falling(elements)?, settings, Start::Rest)?)
+        Ok(Simulation::new(falling::problem(elements)?, settings, Start::Rest)?)
     };
     let mut figures = Vec::new();
     for integrator in [Integrator::Bdf2, Integrator::Sdirk4] {
@@ -140,7 +140,7 @@ fn motion() -> Result<Vec<Figure>, BenchError> {
             let step = black_box(simulation.step()?);
             times.push(start.elapsed().as_secs_f64());
             let tip = simulation.state().poses[ELEMENTS].position.x;
-            squares += (tip / problems::sag() - problems::fallen(step.time)).powi(2);
+            squares += (tip / falling::sag() - falling::sunk(step.time)).powi(2);
         }
         let error = (squares / times.len() as f64).sqrt();
         let name = format!("motion.{}", integrator.name());

@@ -1,6 +1,6 @@
 //! The problems that are timed: a steel wire, 0.5 m long and 2 mm thick.
 
-use std::f64::consts::{FRAC_PI_2, PI};
+use std::f64::consts::FRAC_PI_2;
 
 use strands::load::{Frame, NodalLoads, PointLoad};
 use strands::math::{Pose, Vec3, Vec6, Wrench};
@@ -44,37 +44,6 @@ pub fn held(elements: usize, held: Pose) -> Result<Problem, RodError> {
     problem.loads = NodalLoads::none(&problem.rod).with_gravity(&problem.rod, Vec3::new(0.0, 0.0, -9.81));
     problem.end = Support::clamped(held);
     Ok(problem)
-}
-
-/// The wire, clamped, its weight across it.
-pub fn falling(elements: usize) -> Result<Problem, RodError> {
-    let mut problem = wire(elements, Order::Second, Kinematics::Cosserat)?;
-    problem.loads = NodalLoads::none(&problem.rod).with_gravity(&problem.rod, Vec3::X * 9.81);
-    Ok(problem)
-}
-
-/// The wire's `EI` over its mass per length, m⁴/s².
-const STIFFNESS_OVER_MASS: f64 = 200e9 * 1e-6 / (4.0 * 8000.0);
-
-/// How far its tip sinks at rest, as a beam of Euler's and Bernoulli's, m.
-pub fn sag() -> f64 {
-    9.81 * LENGTH.powi(4) / (8.0 * STIFFNESS_OVER_MASS)
-}
-
-/// How far it has sunk after a time (s), over that, by its first twelve modes.
-pub fn fallen(time: f64) -> f64 {
-    let modes = (1..=12).map(|mode| {
-        // A root of cos x cosh x = −1.
-        let mut x = if mode == 1 { 1.875_104_068_711_961 } else { (f64::from(mode) - 0.5) * PI };
-        for _ in 0..3 {
-            x -= (x.cos() + 1.0 / x.cosh()) / (-x.sin() - x.tanh() / x.cosh());
-        }
-        let mean = 2.0 * (x.cosh() + x.cos()) / (x.sinh() + x.sin()) / x;
-        let tip = if mode % 2 == 1 { 2.0 } else { -2.0 };
-        let omega = STIFFNESS_OVER_MASS.sqrt() * (x / LENGTH).powi(2);
-        8.0 * tip * mean / x.powi(4) * (1.0 - (omega * time).cos())
-    });
-    modes.sum()
 }
 
 /// Where the tip is held at first: a third of the length aside and two thirds up, turned by a quarter turn, so that the wire bends over.

@@ -14,10 +14,7 @@ const COLUMNS: [&str; 21] = [
 /// The solutions as CSV, one row a node, with the columns `rod`, `s`, `x` to `z`, `qw` to `qz`, and those of the element that begins at
 /// the node: strain `kappa1`, `kappa2`, `tau`, `v1` to `v3` and stress `m1` to `m3`, `n1` to `n3`, empty at the last node.
 pub fn csv(model: &Model, solutions: &[(&str, &Solution)]) -> String {
-    let mut table = csv::Writer::from_writer(Vec::new());
-    let mut write =
-        |row: &[String]| table.write_record(row).unwrap_or_else(|error| unreachable!("in memory: {error}"));
-    write(&COLUMNS.map(str::to_owned));
+    let mut rows = Vec::new();
     for Solved { rod, solution } in Solved::all(model, solutions) {
         for (node, (s, pose)) in rod.problem.rod.mesh().nodes().iter().zip(&solution.poses).enumerate() {
             let mut row = vec![rod.name.clone()];
@@ -30,8 +27,18 @@ pub fn csv(model: &Model, solutions: &[(&str, &Solution)]) -> String {
                 }
                 _ => row.resize(COLUMNS.len(), String::new()),
             }
-            write(&row);
+            rows.push(row);
         }
+    }
+    table(&COLUMNS, rows)
+}
+
+/// Rows under the names of their columns.
+pub(super) fn table(columns: &[&str], rows: impl IntoIterator<Item = Vec<String>>) -> String {
+    let mut table = csv::Writer::from_writer(Vec::new());
+    let header = columns.iter().map(|&name| name.to_owned()).collect();
+    for row in core::iter::once(header).chain(rows) {
+        table.write_record(row).unwrap_or_else(|error| unreachable!("in memory: {error}"));
     }
     let bytes = table.into_inner().unwrap_or_else(|error| unreachable!("in memory: {error}"));
     String::from_utf8(bytes).unwrap_or_else(|error| unreachable!("only text was written: {error}"))

@@ -50,8 +50,7 @@ pub fn json(model: &Model, solutions: &[(&str, &Solution)], solve_seconds: Optio
     answer.insert("morse_index".into(), value!(morse_index));
     answer.insert("iterations".into(), value!(reports().map(|report| report.iterations).sum::<usize>()));
     answer.insert("residual".into(), value!(reports().map(|report| report.residual).fold(0.0, f64::max)));
-    let energy: f64 =
-        solved.iter().map(|solved| solved.solution.energy.elastic + solved.solution.energy.load).sum();
+    let energy: f64 = solved.iter().map(|solved| solved.solution.energy.total()).sum();
     answer.insert("energy".into(), value!(energy));
     if let Some(seconds) = solve_seconds {
         answer.insert("solve_seconds".into(), value!(seconds));
@@ -203,7 +202,7 @@ fn one_of_many(model: &Model, rod: &str, solution: &Solution) -> Map<String, Val
     let pairs = [
         ("stable", value!(report.morse_index.map(|index| index == 0))),
         ("morse_index", value!(report.morse_index)),
-        ("energy", value!(solution.energy.elastic + solution.energy.load)),
+        ("energy", value!(solution.energy.total())),
         ("method", value!(report.method.name())),
         ("iterations", value!(report.iterations)),
         ("residual", value!(report.residual)),

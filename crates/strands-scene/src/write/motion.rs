@@ -1,5 +1,6 @@
 //! The answer of a simulation: frames in time.
 
+use super::csv::table;
 use crate::model::Model;
 use serde_json::{Map, Value, json as value};
 use strands::dynamics::{Budget, State};
@@ -80,12 +81,9 @@ fn one(model: &Model, frame: &Frame) -> Value {
 /// A simulation as CSV, one row a node and frame: `t`, `rod`, `s`, `x` to `z`, `qw` to `qz`, and the velocities `vx` to `vz` (world axes) and `wx` to
 /// `wz` (the node's own axes).
 pub fn motion_csv(model: &Model, frames: &[Frame]) -> String {
-    let mut table = csv::Writer::from_writer(Vec::new());
-    let mut write =
-        |row: &[String]| table.write_record(row).unwrap_or_else(|error| unreachable!("in memory: {error}"));
     let columns =
         ["t", "rod", "s", "x", "y", "z", "qw", "qx", "qy", "qz", "vx", "vy", "vz", "wx", "wy", "wz"];
-    write(&columns.map(str::to_owned));
+    let mut rows = Vec::new();
     for frame in frames {
         for (rod, moved) in model.rods.iter().zip(&frame.rods) {
             for (node, s) in rod.problem.rod.mesh().nodes().iter().enumerate() {
@@ -98,10 +96,9 @@ pub fn motion_csv(model: &Model, frames: &[Frame]) -> String {
                     .chain(velocity.angular.to_array());
                 let mut row = vec![frame.time.to_string(), rod.name.clone()];
                 row.extend(numbers.map(|number| number.to_string()));
-                write(&row);
+                rows.push(row);
             }
         }
     }
-    let bytes = table.into_inner().unwrap_or_else(|error| unreachable!("in memory: {error}"));
-    String::from_utf8(bytes).unwrap_or_else(|error| unreachable!("only text was written: {error}"))
+    table(&columns, rows)
 }

@@ -2,7 +2,8 @@
 
 use super::stage::exponents;
 use super::{Simulation, about};
-use crate::math::{Vec3, Vec6, Wrench};
+use crate::math::{Vec3, Wrench};
+use crate::rod::NodeInertia;
 
 /// The energy of a moving rod, J.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -28,27 +29,20 @@ impl Simulation {
     /// Where the energy is now.
     pub fn energy(&self) -> Budget {
         let (rod, state) = (&self.problem.rod, &self.state);
-        let over = |x: f64, y: f64| if y > 0.0 { x * x / y } else { 0.0 };
         let kinetic = |(i, momentum): (usize, &Wrench)| {
             let body = about(self.origin, &state.poses[i]).inverse().carry_wrench(*momentum);
-            let inertia = rod.node_inertia()[i];
-            let turning = (body.angular.to_array().into_iter().zip(inertia.rotational.to_array()))
-                .map(|(l, j)| over(l, j))
-                .sum::<f64>();
-            0.5 * (turning + body.linear.dot(body.linear) / inertia.mass)
+            let NodeInertia { mass, rotational } = rod.node_inertia()[i];
+            let turning = squares_over(&body.angular.to_array(), &rotational.to_array());
+            0.5 * (turning + body.linear.dot(body.linear) / mass)
         };
         let points = rod.diagonal_points().unwrap_or_default();
-        let elastic = exponents(&state.poses).zip(points).map(|(x, point)| {
-            let apart = (x - point.rest).to_array().into_iter().zip(point.compliance.to_array());
-            0.5 * apart.map(|(x, compliance)| over(x, compliance)).sum::<f64>()
-        });
-        let loads = &self.problem.loads;
-        let dead = state.poses.iter().zip(&loads.world).map(|(pose, load)| -load.linear.dot(pose.position));
-        let pulls = loads.pulls().iter().map(|pull| pull.energy(state.poses[pull.node].position));
+        let elastic = exponents(&state.poses)
+            .zip(points)
+            .map(|(x, point)| 0.5 * squares_over(&(x - point.rest).to_array(), &point.compliance.to_array()));
         Budget {
             kinetic: state.momenta.iter().enumerate().map(kinetic).sum(),
             elastic: elastic.sum(),
-            load: dead.chain(pulls).sum(),
+            load: self.problem.loads.energy(&state.poses),
             dissipated: state.dissipated,
         }
     }
@@ -63,16 +57,9 @@ impl Simulation {
     pub(super) fn dissipation(&self) -> f64 {
         let (stage, damping) = (&self.work.stage, self.settings.damping);
         let points = self.problem.rod.diagonal_points().unwrap_or_default();
-        let viscous = |(rate, compliance): (&Vec6, Vec6)| {
-            let parts = rate.to_array().into_iter().zip(compliance.to_array());
-            parts.map(|(x, c)| if c > 0.0 { x * x / c } else { 0.0 }).sum::<f64>()
-        };
-        let of_rates: f64 = stage
-            .strain_rates
-            .iter()
-            .zip(points)
-            .map(|(rate, point)| viscous((rate, point.compliance)))
-            .sum();
+        let rates = stage.strain_rates.iter().zip(points);
+        let of_rates: f64 =
+            rates.map(|(rate, point)| squares_over(&rate.to_array(), &point.compliance.to_array())).sum();
         let mut of_motion = 0.0;
         for (velocity, inertia) in stage.velocities.iter().zip(self.problem.rod.node_inertia()) {
             let turning = velocity.angular.dot(inertia.rotational.scale(velocity.angular));
@@ -80,4 +67,9 @@ impl Simulation {
         }
         damping.viscous * of_rates + damping.mass * of_motion
     }
+}
+
+/// `Σ x²/y`, of what is free: a strain without compliance or a turn without inertia has no energy.
+fn squares_over(x: &[f64], y: &[f64]) -> f64 {
+    x.iter().zip(y).map(|(x, y)| if *y > 0.0 { x * x / y } else { 0.0 }).sum()
 }

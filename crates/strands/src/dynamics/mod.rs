@@ -319,7 +319,6 @@ impl Simulation {
     /// # Errors
     /// Where it cannot be made; the state is then as before.
     pub fn step(&mut self) -> Result<Step, StepFailure> {
-        self.work.history.clear();
         match self.settings.integrator {
             Integrator::ImplicitEuler => self.runge_kutta(&IMPLICIT_EULER),
             Integrator::Sdirk4 => self.runge_kutta(&SDIRK4),
@@ -336,8 +335,7 @@ impl Simulation {
         let mut dissipated = 0.0;
         for (number, before) in method.before.iter().enumerate() {
             let Work { stage, coordinate_rates, momentum_rates, .. } = &mut self.work;
-            stage.set_rate(method.diagonal * h);
-            stage.forget_history(&self.state);
+            stage.set_up(method.diagonal * h, &self.state);
             let rates = coordinate_rates.chunks(nodes).zip(momentum_rates.chunks(nodes));
             for (a, (coordinates, momenta)) in before.iter().zip(rates) {
                 stage.add_history(a * h, coordinates, momenta);
@@ -354,10 +352,6 @@ impl Simulation {
             let weight = weight_of(method, number);
             dissipated += weight * h * self.dissipation();
         }
-        let stage = &self.work.stage;
-        self.state.poses.copy_from_slice(&self.work.record.poses);
-        self.state.velocities.copy_from_slice(&stage.velocities);
-        self.state.momenta.copy_from_slice(&stage.momenta);
         Ok(self.taken(taken, dissipated))
     }
 
@@ -372,8 +366,7 @@ impl Simulation {
         let viscous = self.settings.damping.viscous > 0.0;
         let stage = &mut self.work.stage;
         stage.begin(&self.state, &self.problem, viscous);
-        stage.set_rate(2.0 / 3.0 * h);
-        stage.forget_history(&self.state);
+        stage.set_up(2.0 / 3.0 * h, &self.state);
         stage.look_back(&poses, &momenta);
         stage.predict_by_velocities(&self.state.velocities);
         let mut taken = Taken::default();
@@ -385,23 +378,24 @@ impl Simulation {
             }
         }
         let dissipated = h * self.dissipation();
-        let (stage, state) = (&self.work.stage, &mut self.state);
+        let state = &mut self.state;
         let (mut before_poses, mut before_momenta) = (poses, momenta);
         before_poses.copy_from_slice(&state.poses);
         before_momenta.copy_from_slice(&state.momenta);
         state.before = Some((before_poses, before_momenta));
-        state.poses.copy_from_slice(&self.work.record.poses);
-        state.velocities.copy_from_slice(&stage.velocities);
-        state.momenta.copy_from_slice(&stage.momenta);
         Ok(self.taken(taken, dissipated))
     }
 
-    /// Ends a step.
+    /// Ends a step where its last stage is.
     fn taken(&mut self, taken: Taken, dissipated: f64) -> Step {
-        self.state.wrenches.copy_from_slice(&self.work.record.wrenches);
-        self.state.dissipated += dissipated;
-        self.state.time += self.settings.time_step;
-        Step { time: self.state.time, iterations: taken.iterations, residual: taken.residual }
+        let Self { state, work: Work { record, stage, .. }, settings, .. } = self;
+        state.poses.copy_from_slice(&record.poses);
+        state.wrenches.copy_from_slice(&record.wrenches);
+        state.velocities.copy_from_slice(&stage.velocities);
+        state.momenta.copy_from_slice(&stage.momenta);
+        state.dissipated += dissipated;
+        state.time += settings.time_step;
+        Step { time: state.time, iterations: taken.iterations, residual: taken.residual }
     }
 }
 

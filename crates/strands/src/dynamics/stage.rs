@@ -18,7 +18,7 @@ pub(super) struct Stage {
     known_momenta: Vec<Wrench>,
     /// How much a rate counts, s.
     of_rate: f64,
-    /// The laws of the elements, with what their rates add.
+    /// The laws of the elements with what their rates add, where the rod is viscous.
     points: Vec<DiagonalPoint>,
     inertial: Vec<Inertial>,
     /// What comes of it.
@@ -33,9 +33,9 @@ impl Stage {
     pub fn begin(&mut self, state: &State, problem: &Problem, viscous: bool) {
         self.base.clone_from(&state.poses);
         self.points.clear();
-        self.points.extend_from_slice(problem.rod.diagonal_points().unwrap_or_default());
         self.strain_rates.clear();
         if viscous {
+            self.points.extend_from_slice(problem.rod.diagonal_points().unwrap_or_default());
             self.strain_rates.resize(self.points.len(), Vec6::ZERO);
         }
         let nodes = state.poses.len();
@@ -46,12 +46,9 @@ impl Stage {
         self.momenta.resize(nodes, Wrench::ZERO);
     }
 
-    pub fn set_rate(&mut self, of_rate: f64) {
+    /// Sets up a stage in which a rate counts so much, s. Without rates all would be as at the step's beginning.
+    pub fn set_up(&mut self, of_rate: f64, state: &State) {
         self.of_rate = of_rate;
-    }
-
-    /// Without rates all would be as at the step's beginning.
-    pub fn forget_history(&mut self, state: &State) {
         self.offsets.clear();
         self.offsets.resize(state.poses.len(), Vec6::ZERO);
         self.known_momenta.clone_from(&state.momenta);
@@ -221,22 +218,24 @@ impl Simulation {
         let mut iterations = 0;
         let residual = loop {
             work.stage.take_inertia(inertia, &work.record.poses, *origin, damping.mass);
+            let mut points = problem.rod.diagonal_points().unwrap_or_default();
             if damping.viscous > 0.0 {
-                let elastic = problem.rod.diagonal_points().unwrap_or_default();
-                work.stage.take_viscosity(elastic, damping.viscous, &work.record.poses);
+                work.stage.take_viscosity(points, damping.viscous, &work.record.poses);
+                points = &work.stage.points;
             }
-            let motion = Motion { points: &work.stage.points, inertial: &work.stage.inertial };
+            let motion = Motion { points, inertial: &work.stage.inertial };
             let distance = work.nodal.linearise_moving(problem, work.level, lent, &motion, &mut work.record);
             let residual = distance.map_or(f64::NAN, |distance| distance.residual());
             work.history.push(residual);
             if !residual.is_finite() {
                 return Err(singular(&work.history));
             }
-            let enough = if settings.bounded { false } else { residual <= tolerance };
-            if enough || (settings.bounded && iterations == settings.max_iterations) {
+            let spent = iterations == settings.max_iterations;
+            let enough = if settings.bounded { spent } else { residual <= tolerance };
+            if enough {
                 break residual;
             }
-            if iterations == settings.max_iterations {
+            if spent {
                 let (time, step) = (state.time, settings.time_step);
                 return Err(StepFailure::NotConverged { time, step, history: work.history.clone() });
             }

@@ -20,11 +20,6 @@ fn rod(length: f64, radius: f64, material: Material, kinematics: Kinematics, ele
     Rod::with_elements(description, elements, &[], Order::Second).unwrap()
 }
 
-fn steel(elements: usize) -> Rod {
-    let steel = Material::from_poisson(200e9, 0.3, 8000.0).unwrap();
-    rod(0.5, 1e-3, steel, Kinematics::Cosserat, elements)
-}
-
 fn suture(elements: usize) -> Rod {
     let suture = Material::from_poisson(750e6, 0.4, 1300.0).unwrap();
     rod(0.1, 0.2e-3, suture, Kinematics::Cosserat, elements)
@@ -39,49 +34,7 @@ fn simulated(problem: Problem, integrator: Integrator, time_step: f64, start: St
     Simulation::new(problem, Settings { integrator, time_step, ..Settings::default() }, start).unwrap()
 }
 
-/// The tip of a straight clamped beam on which weight begins to act, over what it sinks by at rest: by its first twelve modes (Euler and Bernoulli).
-fn tip_of_modes(frequency: f64, time: f64) -> f64 {
-    let mut sum = 0.0;
-    let mut x: f64 = 1.875_104_068_711_961;
-    for mode in 1..=12 {
-        if mode > 1 {
-            x = (f64::from(mode) - 0.5) * std::f64::consts::PI;
-            // cos x cosh x = −1.
-            for _ in 0..3 {
-                x -= (x.cos() + 1.0 / x.cosh()) / (-x.sin() - x.tanh() / x.cosh());
-            }
-        }
-        let sigma = (x.cosh() + x.cos()) / (x.sinh() + x.sin());
-        // Its value at the tip is ±2, its mean over the length 2 σ / x, the mean of its square 1; over L⁴/8.
-        let sign = if mode % 2 == 1 { 1.0 } else { -1.0 };
-        let omega = frequency * x * x;
-        sum += 8.0 * 2.0 * sign * (2.0 * sigma / x) / x.powi(4) * (1.0 - (omega * time).cos());
-    }
-    sum
-}
-
 const ALL: [Integrator; 3] = [Integrator::ImplicitEuler, Integrator::Bdf2, Integrator::Sdirk4];
-
-#[test]
-fn a_straight_rod_that_weight_begins_to_act_on_swings_as_its_modes_do() {
-    // The workload W-F: 0.2 % are the rod's own, which bends by a twentieth of its length.
-    let frequency = (200e9 * 1e-6 / 4.0 / 8000.0_f64).sqrt() / 0.25;
-    for (time_step, integrator) in
-        [(2e-3, Integrator::Sdirk4), (1e-3, Integrator::Sdirk4), (1e-4, Integrator::Bdf2)]
-    {
-        let mut simulation = simulated(heavy(steel(100)), integrator, time_step, Start::Rest);
-        let sag = 9.81 * 8000.0 * 0.0625 / (8.0 * 200e9 * 1e-6 / 4.0);
-        let (mut sum, mut steps) = (0.0, 0);
-        while simulation.state().time < 0.9995 {
-            let time = simulation.step().unwrap().time;
-            let tip = simulation.state().poses[100].position.x / sag;
-            sum += (tip - tip_of_modes(frequency, time)).powi(2);
-            steps += 1;
-        }
-        let error = (sum / f64::from(steps)).sqrt();
-        assert!(error < 5e-3, "{} at {time_step}: {error}", integrator.name());
-    }
-}
 
 #[test]
 fn integrators_have_their_order() {

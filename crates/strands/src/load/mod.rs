@@ -1,6 +1,6 @@
 //! What acts on a rod: gravity, forces and moments at points and along stretches, dead or following, and forces towards a fixed point.
 
-use crate::math::{Mat3, Vec3, Wrench};
+use crate::math::{Mat3, Pose, Vec3, Wrench};
 use crate::rod::{Rod, RodError};
 
 /// The frame in which a load keeps its direction.
@@ -116,6 +116,13 @@ impl NodalLoads {
     pub fn none(rod: &Rod) -> Self {
         let nodes = rod.mesh().nodes().len();
         Self { world: vec![Wrench::ZERO; nodes], body: vec![Wrench::ZERO; nodes], pulls: Vec::new() }
+    }
+
+    /// The energy of the dead forces and the pulls, minus force times position and tension times distance, where the nodes are, J.
+    pub(crate) fn energy(&self, poses: &[Pose]) -> f64 {
+        let dead = poses.iter().zip(&self.world).map(|(pose, load)| -load.linear.dot(pose.position));
+        let pulls = self.pulls.iter().map(|pull| pull.energy(poses[pull.node].position));
+        dead.chain(pulls).sum()
     }
 
     /// Adds the weight in a field of gravity, m/s², world axes.

@@ -14,7 +14,7 @@ use super::problem::Problem;
 use super::shooting::{Outcome, Workspace};
 use super::solution::{Method, Settings, Solution, SolveFailure, SolveReport};
 use super::stability::{morse_index, rigid_compliance, strength};
-use super::{fit, solution, solve};
+use super::{bending_length, fit, solution, solve};
 use crate::math::{SimdLevel, Vec6, Wrench};
 use crate::rod::Order;
 use thiserror::Error;
@@ -227,9 +227,8 @@ const STRAIGHT: &str =
 
 /// Whether a rod is so taut that it bends over less than an element.
 fn is_straight(here: &Point) -> bool {
-    let (rod, scale) = (&here.problem.rod, here.problem.rod.scale());
-    let bending_length = scale.length * (scale.force / here.record.largest_force()).sqrt();
-    bending_length * (rod.elements() as f64) < scale.length
+    let rod = &here.problem.rod;
+    bending_length(rod, here.record.largest_force()) * (rod.elements() as f64) < rod.length()
 }
 
 /// Whether more stabilities change than a path can lose at once: from an infinite tension a step leads to an infinite pressure.

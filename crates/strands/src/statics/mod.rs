@@ -45,7 +45,7 @@ pub(crate) use stability::rigid_compliance;
 pub use stability::{UnstableMode, unstable_mode};
 
 use crate::math::{Pose, Vec3, Vec6, Wrench};
-use crate::rod::{Kinematics, Order};
+use crate::rod::{Kinematics, Order, Rod};
 use boundary::{EndState, loaded_start};
 use plan::Way;
 use shooting::{Outcome, Search, shoot};
@@ -407,14 +407,19 @@ fn stalled(settings: &Settings, workspace: &Workspace, report: &SolveReport) -> 
     }
 }
 
+/// The length `√(EI/T)` over which a rod under a tension bends, m.
+fn bending_length(rod: &Rod, tension: f64) -> f64 {
+    let scale = rod.scale();
+    scale.length * (scale.force / tension).sqrt()
+}
+
 /// Whether the tension in the last state bends the rod over less than its elements' length.
 fn too_coarse(problem: &Problem, workspace: &Workspace) -> Option<FailureReason> {
     let rod = &problem.rod;
     let longest = (0..rod.elements()).map(|e| rod.element_length(e)).fold(0.0, f64::max);
     let tension = workspace.record.largest_force();
-    let scale = rod.scale();
-    let bending_length = scale.length * (scale.force / tension).sqrt();
-    let needed = (2.0 * scale.length / bending_length).ceil();
+    let (length, bending_length) = (rod.length(), bending_length(rod, tension));
+    let needed = (2.0 * length / bending_length).ceil();
     // A search that has gone wild leaves any tension behind.
     (bending_length < longest && needed <= MOST_NEEDED).then_some(FailureReason::TooCoarse {
         tension,
@@ -496,9 +501,7 @@ fn solution(problem: &Problem, search: &Search, workspace: &Workspace, report: S
             }
         });
     }
-    let dead = record.poses.iter().zip(&problem.loads.world).map(|(p, l)| -l.linear.dot(p.position));
-    let pulls = problem.loads.pulls().iter().map(|pull| pull.energy(record.poses[pull.node].position));
-    let load = dead.chain(pulls).sum();
+    let load = problem.loads.energy(&record.poses);
     let start = loaded_start(problem, &search.start);
     let at_start = Reaction {
         s: 0.0,
@@ -537,7 +540,7 @@ impl Solution {
         self.poses.iter().all(Pose::is_finite)
             && self.strain.iter().chain(&self.stress).all(|strain| strain.is_finite())
             && self.reactions.iter().all(held)
-            && (self.energy.elastic + self.energy.load).is_finite()
+            && self.energy.total().is_finite()
     }
 
     /// What holds the start.

@@ -15,11 +15,13 @@
 //! All is seen from fixed axes about the rod's start, in which lengths, forces and moments are numbers of order one.
 
 mod elimination;
+mod motion;
 mod second_variation;
 mod side_by_side;
 
 pub(crate) use elimination::Inertia;
 use elimination::{Block, Eliminate, Square, pair, parts};
+pub(crate) use motion::{Inertial, Motion};
 pub(crate) use second_variation::SecondVariation;
 use second_variation::TURNING;
 pub(crate) use side_by_side::{SideBySide, of_lane};
@@ -107,25 +109,6 @@ pub(crate) struct Distance {
     pub slack: f64,
 }
 
-/// What motion adds to a rod at rest.
-pub(crate) struct Motion<'a> {
-    /// The laws of its elements, with what their rates add.
-    pub points: &'a [DiagonalPoint],
-    /// Of each node.
-    pub inertial: &'a [Inertial],
-}
-
-/// What the change of its momentum exerts on a node.
-#[derive(Clone, Copy, Debug)]
-pub(crate) struct Inertial {
-    /// That, about the node, world axes, N·m and N.
-    pub exerts: Wrench,
-    /// How its moment changes with a turn of the node, N·m.
-    pub by_turn: Mat3,
-    /// How its moment (N) and force (N/m) change with a shift.
-    pub by_shift: [Mat3; 2],
-}
-
 impl Distance {
     /// The larger of the two; NaN where either is.
     pub fn residual(&self) -> f64 {
@@ -145,19 +128,6 @@ impl Nodal {
     ) -> Option<Distance> {
         self.axes = Axes::new(problem, state);
         self.linearise_in_its_axes(problem, level, lent, None, state)
-    }
-
-    /// The same of a rod that moves, about its state at some time.
-    pub fn linearise_moving(
-        &mut self,
-        problem: &Problem,
-        level: SimdLevel,
-        lent: f64,
-        motion: &Motion,
-        state: &mut Record,
-    ) -> Option<Distance> {
-        self.axes = Axes::new(problem, state);
-        self.linearise_in_its_axes(problem, level, lent, Some(motion), state)
     }
 
     fn linearise_in_its_axes(
@@ -231,7 +201,7 @@ impl Nodal {
                 let force = pull.force(pose.position) * (1.0 / axes.force);
                 load += Wrench::new(at.cross(force), force);
                 let by_shift = pull.slope(pose.position).scaled(axes.length / axes.force);
-                slope = slope.add(&force_slope(at, [Mat3::ZERO, by_shift]));
+                slope = slope.add(&force_slope(at, Mat3::ZERO, [Mat3::ZERO, by_shift]));
             }
             if body != Wrench::ZERO {
                 let carried = axes.frame(pose).carry_wrench(body);
@@ -254,30 +224,8 @@ impl Nodal {
             let (by_turn, by_shift) = grip.stiffness(pose);
             let by_turn = by_turn.scaled(1.0 / axes.moment) * pose.rotation.transpose();
             let by_shift = by_shift.scaled(axes.length / axes.force);
-            self.load_slopes.push((node, force_slope(at, [by_turn, by_shift]).to_rows()));
+            self.load_slopes.push((node, force_slope(at, by_turn, [Mat3::ZERO, by_shift]).to_rows()));
         }
-    }
-
-    /// What the change of its momentum exerts on each node.
-    fn move_with(&mut self, inertial: &[Inertial], axes: &Axes) {
-        for (i, node) in inertial.iter().enumerate() {
-            let (at, exerts) = (self.places[i], axes.wrench(node.exerts));
-            self.loads[i] += Wrench::new(exerts.angular + at.cross(exerts.linear), exerts.linear);
-            let by_turn = node.by_turn.scaled(1.0 / axes.moment);
-            let moment = node.by_shift[0].scaled(axes.length / axes.moment);
-            let force = node.by_shift[1].scaled(axes.length / axes.force);
-            let mut slope = force_slope(at, [by_turn, force]);
-            slope.blocks[0][0] = slope.blocks[0][0] - moment * Mat3::hat(at);
-            slope.blocks[0][1] = slope.blocks[0][1] + moment;
-            self.load_slopes.push((i, slope.to_rows()));
-        }
-    }
-
-    /// What acts on a node that is out of balance, in the world about itself: what its support bears, with the opposite sign, or what is left of a
-    /// search.
-    pub fn left_over(&self, node: usize) -> Wrench {
-        let w = self.imbalance(node);
-        self.axes.in_units(Wrench::new(w.angular - self.places[node].cross(w.linear), w.linear))
     }
 
     /// By what a node is out of balance, about itself, without what its hold takes.
@@ -597,11 +545,12 @@ fn log_large_turns<R: Wide>(poses: &Pose<Vec3<R>>, logs: &mut Vec6<Vec3<R>>) {
 }
 
 /// How a wrench at a place, its moment about the origin, changes with the frame there beside what it does as a dead one, where its moment about the
-/// place changes by so much with the turn, and its force with the shift.
-fn force_slope(at: Vec3, [by_turn, by_shift]: [Mat3; 2]) -> Mat6 {
+/// place changes by so much with the turn, and that and its force with the shift.
+fn force_slope(at: Vec3, by_turn: Mat3, [moment, force]: [Mat3; 2]) -> Mat6 {
     let arm = Mat3::hat(at);
-    let force = [(by_shift * arm).scaled(-1.0), by_shift];
-    Mat6 { blocks: [[by_turn + arm * force[0], arm * force[1]], force] }
+    let force = [(force * arm).scaled(-1.0), force];
+    let moment = [by_turn + arm * force[0] - moment * arm, arm * force[1] + moment];
+    Mat6 { blocks: [moment, force] }
 }
 
 /// Elements of a rod of order 2 with a diagonal law, side by side, in the fixed axes.

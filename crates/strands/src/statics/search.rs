@@ -97,7 +97,7 @@ struct Found {
 
 impl Found {
     fn energy(&self) -> f64 {
-        self.solution.energy.elastic + self.solution.energy.load
+        self.solution.energy.total()
     }
 }
 

@@ -139,6 +139,13 @@ pub struct Energy {
     pub load: f64,
 }
 
+impl Energy {
+    /// Both together.
+    pub fn total(&self) -> f64 {
+        self.elastic + self.load
+    }
+}
+
 /// How a solve went.
 #[derive(Clone, Debug, PartialEq)]
 pub struct SolveReport {

@@ -199,7 +199,7 @@ fn on_far<R: Real>(link: &Link<R>) -> Square<R> {
 
 /// Adds `ad*(η) w` as a matrix of `η`, as [`coadjoint_by_strain`](crate::element::coadjoint_by_strain).
 #[inline(always)]
-pub(super) fn add_coadjoint<R: Real, const COLUMNS: usize>(to: &mut [[R; COLUMNS]; 6], w: Wrench<Vec3<R>>) {
+pub(super) fn add_coadjoint<R: Real>(to: &mut Square<R>, w: Wrench<Vec3<R>>) {
     minus_hat(to, 0, 0, w.angular);
     minus_hat(to, 0, 3, w.linear);
     minus_hat(to, 3, 0, w.linear);
@@ -207,7 +207,7 @@ pub(super) fn add_coadjoint<R: Real, const COLUMNS: usize>(to: &mut [[R; COLUMNS
 
 /// Adds `−v^` from a row and a column on.
 #[inline(always)]
-fn minus_hat<R: Real, const COLUMNS: usize>(block: &mut [[R; COLUMNS]; 6], r: usize, c: usize, v: Vec3<R>) {
+fn minus_hat<R: Real>(block: &mut Square<R>, r: usize, c: usize, v: Vec3<R>) {
     block[r][c + 1] += v.z;
     block[r][c + 2] -= v.y;
     block[r + 1][c] -= v.z;

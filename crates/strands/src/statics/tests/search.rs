@@ -3,16 +3,21 @@
 use super::*;
 use core::f64::consts::PI;
 
+/// A clamped rod, pressed down at its end by so many times its first critical load about `d2`.
+fn pressed(rod: Rod, times: f64) -> Problem {
+    let down = rod.description().base.rotation.cols[2] * (-times * 0.25 * PI * PI * 0.05 / 0.64);
+    let load = PointLoad { at: 0.8, wrench: Wrench::new(Vec3::ZERO, down), frame: Frame::World };
+    let loads = NodalLoads::none(&rod).with_point(&rod, &load).unwrap();
+    Problem { loads, ..Problem::cantilever(rod) }
+}
+
 #[test]
 fn a_column_beyond_two_critical_loads_has_five_equilibria() {
     // Under 6.4 times the first critical load, about d1, which is 4 times that about d2 and less than the next (9 times): straight, and buckled
     // either way about either axis.
     let rod = rod(Kinematics::Kirchhoff, RestShape::default(), 60, Order::Second);
     let base = rod.description().base;
-    let down = base.rotation.cols[2] * (-6.4 * 0.25 * PI * PI * 0.05 / 0.64);
-    let load = PointLoad { at: 0.8, wrench: Wrench::new(Vec3::ZERO, down), frame: Frame::World };
-    let loads = NodalLoads::none(&rod).with_point(&rod, &load).unwrap();
-    let problem = Problem { loads, ..Problem::cantilever(rod) };
+    let problem = pressed(rod, 6.4);
     let settings = SearchSettings { starts: 200, paths: 20, ..SearchSettings::default() };
     let found = equilibria(&problem, &settings, &mut Workspace::default()).unwrap();
     let indices: Vec<_> = found.iter().map(|solution| solution.report.morse_index).collect();
@@ -39,12 +44,7 @@ fn a_round_column_that_buckles_whichever_way_is_listed_a_few_times() {
     if let Profile::Given { law: Law::Diagonal(stiffness), .. } = &mut description.profile {
         stiffness.bending = [0.05; 2];
     }
-    let rod = Rod::with_elements(description, 40, &[], Order::Second).unwrap();
-    let base = rod.description().base;
-    let down = base.rotation.cols[2] * (-4.0 * 0.25 * PI * PI * 0.05 / 0.64);
-    let load = PointLoad { at: 0.8, wrench: Wrench::new(Vec3::ZERO, down), frame: Frame::World };
-    let loads = NodalLoads::none(&rod).with_point(&rod, &load).unwrap();
-    let problem = Problem { loads, ..Problem::cantilever(rod) };
+    let problem = pressed(Rod::with_elements(description, 40, &[], Order::Second).unwrap(), 4.0);
     let settings = SearchSettings { starts: 500, paths: 5, ..SearchSettings::default() };
     let found = equilibria(&problem, &settings, &mut Workspace::default()).unwrap();
     let indices: Vec<_> = found.iter().filter_map(|solution| solution.report.morse_index).collect();

@@ -1,0 +1,62 @@
+//! The system of a rod that moves: what the change of their momenta exerts on the nodes, beside what acts on a rod at rest.
+
+use super::super::march::Record;
+use super::super::problem::Problem;
+use super::{Axes, Distance, Nodal, force_slope};
+use crate::element::DiagonalPoint;
+use crate::math::{Mat3, SimdLevel, Wrench};
+
+/// What motion adds to a rod at rest.
+pub(crate) struct Motion<'a> {
+    /// The laws of its elements, with what their rates add.
+    pub points: &'a [DiagonalPoint],
+    /// Of each node.
+    pub inertial: &'a [Inertial],
+}
+
+/// What the change of its momentum exerts on a node.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Inertial {
+    /// That, about the node, world axes, N·m and N.
+    pub exerts: Wrench,
+    /// How its moment changes with a turn of the node, N·m.
+    pub by_turn: Mat3,
+    /// How its moment (N) and force (N/m) change with a shift.
+    pub by_shift: [Mat3; 2],
+}
+
+impl Nodal {
+    /// The same as [`Nodal::linearise`] of a rod that moves, about its state at some time.
+    pub fn linearise_moving(
+        &mut self,
+        problem: &Problem,
+        level: SimdLevel,
+        lent: f64,
+        motion: &Motion,
+        state: &mut Record,
+    ) -> Option<Distance> {
+        self.axes = Axes::new(problem, state);
+        self.linearise_in_its_axes(problem, level, lent, Some(motion), state)
+    }
+
+    /// Adds what the change of its momentum exerts on each node.
+    pub(super) fn move_with(&mut self, inertial: &[Inertial], axes: &Axes) {
+        for (i, node) in inertial.iter().enumerate() {
+            let (at, exerts) = (self.places[i], axes.wrench(node.exerts));
+            self.loads[i] += Wrench::new(exerts.angular + at.cross(exerts.linear), exerts.linear);
+            let by_turn = node.by_turn.scaled(1.0 / axes.moment);
+            let by_shift = [
+                node.by_shift[0].scaled(axes.length / axes.moment),
+                node.by_shift[1].scaled(axes.length / axes.force),
+            ];
+            self.load_slopes.push((i, force_slope(at, by_turn, by_shift).to_rows()));
+        }
+    }
+
+    /// What acts on a node that is out of balance, in the world about itself: what its support bears, with the opposite sign, or what is left of a
+    /// search.
+    pub fn left_over(&self, node: usize) -> Wrench {
+        let w = self.imbalance(node);
+        self.axes.in_units(Wrench::new(w.angular - self.places[node].cross(w.linear), w.linear))
+    }
+}
