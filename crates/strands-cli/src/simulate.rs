@@ -4,7 +4,8 @@ use std::fmt::Write;
 use std::path::Path;
 use std::time::Instant;
 
-use strands::dynamics::{Damping, Integrator, Settings, Simulation, Start};
+use strands::assembly::Strand;
+use strands::dynamics::{Integrator, Settings, Simulation, Start};
 use strands_scene::write::{Frame, Moved, motion_csv, motion_json};
 use strands_scene::{DynamicsFile, IntegratorName, MeshChoice, Model};
 
@@ -124,9 +125,8 @@ fn simulated(model: &Model, plan: &Plan) -> Result<Run, Failure> {
                 rod.name
             );
         }
-        let damping = Damping { viscous: rod.damping, mass: 0.0 };
-        let settings = Settings { damping, ..plan.settings };
-        let rod = Simulation::new(rod.problem.clone(), settings, plan.start.clone())
+        let strand = Strand { viscosity: rod.damping, ..rod.problem.clone().into() };
+        let rod = Simulation::new(strand, plan.settings, plan.start.clone())
             .map_err(|error| Failure::bad(format!("rod `{}`: {error}", rod.name)))?;
         rods.push(rod);
     }

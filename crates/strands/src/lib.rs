@@ -48,11 +48,13 @@
 //! | [`load`] | what acts on it |
 //! | `element` | the mechanics of one element, written once |
 //! | [`statics`] | equilibrium: sweeps, shooting, ways to afar, stability, meshes for a tolerance |
+//! | [`assembly`] | several rods, rigid bodies, and the joints between them |
 //! | [`dynamics`] | motion: inertia, integrators, damping, energy |
 //! | [`coupling`] | the hand that holds a strand: a virtual coupling |
 //!
 //! The crate does no I/O and starts no threads, and builds for WebAssembly.
 
+pub mod assembly;
 pub mod coupling;
 pub mod dynamics;
 mod element;

@@ -1,11 +1,13 @@
-//! Where a moving rod's energy is.
+//! Where the energy of what moves is, and what holds it.
 
-use super::stage::exponents;
+use super::newton::RodSystem;
 use super::{Simulation, about};
-use crate::math::{Vec3, Wrench};
+use crate::assembly::Member;
+use crate::math::{Pose, Vec3, Vec6, Wrench};
 use crate::rod::NodeInertia;
+use crate::statics::Support;
 
-/// The energy of a moving rod, J.
+/// The energy of an assembly, J.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Budget {
     /// Of its motion.
@@ -14,59 +16,135 @@ pub struct Budget {
     pub elastic: f64,
     /// Of dead loads and pulls, gravity among them.
     pub load: f64,
-    /// Taken out of it by damping since the start.
+    /// Taken out of it by damping and drag since the start.
     pub dissipated: f64,
+    /// Put into it by supports, hands and loads that follow since the start.
+    pub worked: f64,
 }
 
 impl Budget {
-    /// What stays the same where nothing but dead loads acts, nothing that holds it moves, and the integrator takes nothing away.
+    /// What stays the same where the integrator takes nothing away and adds nothing: all that there is and was taken out, less what was put in.
     pub fn total(&self) -> f64 {
-        self.kinetic + self.elastic + self.load + self.dissipated
+        self.kinetic + self.elastic + self.load + self.dissipated - self.worked
     }
+}
+
+/// How fast energy goes through what is not conservative, W.
+#[derive(Clone, Copy, Debug, Default)]
+pub(super) struct Power {
+    pub dissipated: f64,
+    pub worked: f64,
 }
 
 impl Simulation {
     /// Where the energy is now.
     pub fn energy(&self) -> Budget {
-        let (rod, state) = (&self.problem.rod, &self.state);
+        let state = &self.state;
         let kinetic = |(i, momentum): (usize, &Wrench)| {
             let body = about(self.origin, &state.poses[i]).inverse().carry_wrench(*momentum);
-            let NodeInertia { mass, rotational } = rod.node_inertia()[i];
+            let NodeInertia { mass, rotational } = self.work.inertia[i];
             let turning = squares_over(&body.angular.to_array(), &rotational.to_array());
             0.5 * (turning + body.linear.dot(body.linear) / mass)
         };
-        let points = rod.diagonal_points().unwrap_or_default();
-        let elastic = exponents(&state.poses)
-            .zip(points)
-            .map(|(x, point)| 0.5 * squares_over(&(x - point.rest).to_array(), &point.compliance.to_array()));
+        let (mut elastic, mut load) = (0.0, 0.0);
+        for (rod, strand) in self.assembly.strands.iter().enumerate() {
+            let poses = &state.poses[self.assembly.nodes(rod)];
+            let points = strand.problem.rod.diagonal_points().unwrap_or_default();
+            for (pair, point) in poses.windows(2).zip(points) {
+                let strain = pair[0].between(&pair[1]).log() - point.rest;
+                elastic += 0.5 * squares_over(&strain.to_array(), &point.compliance.to_array());
+            }
+            load += strand.problem.loads.energy(poses);
+        }
+        for (body, pose) in self.assembly.bodies.iter().zip(&state.poses[self.assembly.first_body()..]) {
+            load -= body.load.linear.dot(pose.position);
+        }
         Budget {
             kinetic: state.momenta.iter().enumerate().map(kinetic).sum(),
-            elastic: elastic.sum(),
-            load: self.problem.loads.energy(&state.poses),
+            elastic,
+            load,
             dissipated: state.dissipated,
+            worked: state.worked,
         }
     }
 
-    /// The momentum of the whole rod, N·s, and its angular momentum about where the rod's base was described, N·m·s.
+    /// The momentum of all, N·s, and the angular momentum about the first rod's base as it was described, N·m·s.
     pub fn momentum(&self) -> (Vec3, Vec3) {
         let sum = self.state.momenta.iter().fold(Wrench::ZERO, |sum, momentum| sum + *momentum);
         (sum.linear, sum.angular)
     }
 
-    /// How fast damping takes energy out at the stage that was solved last, W.
-    pub(super) fn dissipation(&self) -> f64 {
-        let (stage, damping) = (&self.work.stage, self.settings.damping);
-        let points = self.problem.rod.diagonal_points().unwrap_or_default();
-        let rates = stage.strain_rates.iter().zip(points);
-        let of_rates: f64 =
-            rates.map(|(rate, point)| squares_over(&rate.to_array(), &point.compliance.to_array())).sum();
-        let mut of_motion = 0.0;
-        for (velocity, inertia) in stage.velocities.iter().zip(self.problem.rod.node_inertia()) {
-            let turning = velocity.angular.dot(inertia.rotational.scale(velocity.angular));
-            of_motion += turning + velocity.linear.dot(velocity.linear) * inertia.mass;
-        }
-        damping.viscous * of_rates + damping.mass * of_motion
+    /// What held a frame at the end of the last step: force and moment about it, in the world. Zero where nothing holds it, and before the first step.
+    pub fn reaction(&self, member: Member) -> Wrench {
+        let held = self.assembly.support(member).is_some_and(|support| support.fixed.contains(&true));
+        let Some(frame) = self.assembly.frame(member).filter(|_| held) else { return Wrench::ZERO };
+        self.reaction_at(frame, self.state.poses[frame].position)
     }
+
+    fn reaction_at(&self, frame: usize, place: Vec3) -> Wrench {
+        for group in &self.work.groups {
+            if let Some(left) = group.left_over(frame, &self.assembly) {
+                let held = left * -1.0;
+                return Wrench::new(held.angular - place.cross(held.linear), held.linear);
+            }
+        }
+        Wrench::ZERO
+    }
+
+    /// How fast energy goes through damping, drag, supports, hands and loads that follow at the stage that was solved last.
+    pub(super) fn power(&self) -> Power {
+        let (stage, assembly) = (&self.work.stage, &self.assembly);
+        let mut power = Power::default();
+        let systems = self.work.groups.iter().flat_map(|group| &group.rods);
+        for RodSystem { rod, .. } in systems {
+            let strand = &assembly.strands[*rod];
+            let problem = &strand.problem;
+            if strand.viscosity > 0.0 {
+                let points = problem.rod.diagonal_points().unwrap_or_default();
+                let rates = stage.strain_rates[assembly.elements(*rod)].iter().zip(points);
+                let squares =
+                    rates.map(|(rate, point)| squares_over(&rate.to_array(), &point.compliance.to_array()));
+                power.dissipated += strand.viscosity * squares.sum::<f64>();
+            }
+            let first = assembly.nodes(*rod).start;
+            for (node, support) in problem.supports() {
+                power.worked += self.support_power(first + node, support);
+            }
+            for (node, load) in problem.loads.body.iter().enumerate() {
+                let frame = first + node;
+                let velocity = stage.velocities[frame];
+                let along = self.work.poses[frame].rotation.transpose_mul(velocity.linear);
+                power.worked += load.angular.dot(velocity.angular) + load.linear.dot(along);
+            }
+        }
+        for (body, of) in assembly.bodies.iter().enumerate() {
+            if let Some(support) = &of.support {
+                power.worked += self.support_power(assembly.first_body() + body, support);
+            }
+        }
+        for (velocity, inertia) in stage.velocities.iter().zip(&self.work.inertia) {
+            let turning = velocity.angular.dot(inertia.rotational.scale(velocity.angular));
+            let motion = turning + velocity.linear.dot(velocity.linear) * inertia.mass;
+            power.dissipated += self.settings.mass_damping * motion;
+        }
+        let drags = stage.drags.iter().zip(&stage.velocities);
+        power.dissipated -= drags.map(|(force, velocity)| force.dot(velocity.linear)).sum::<f64>();
+        power
+    }
+
+    fn support_power(&self, frame: usize, support: &Support) -> f64 {
+        let (pose, velocity) = (&self.work.poses[frame], self.work.stage.velocities[frame]);
+        let mut exerts = support.grip.as_ref().map_or(Wrench::ZERO, |grip| grip.wrench(pose));
+        if support.fixed.contains(&true) {
+            exerts += self.reaction_at(frame, pose.position);
+        }
+        exerts.dot(twist(pose, velocity))
+    }
+}
+
+/// A velocity with its turn in the world too.
+fn twist(pose: &Pose, velocity: Vec6) -> Vec6 {
+    Vec6::new(pose.rotation * velocity.angular, velocity.linear)
 }
 
 /// `Σ x²/y`, of what is free: a strain without compliance or a turn without inertia has no energy.

@@ -12,12 +12,18 @@
 //! acts from outside.
 
 /// How a step in time is made.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Integrator {
     /// Backward Euler, of order 1: it takes energy out of all that is faster than a few steps.
     ImplicitEuler,
     /// Backward differences of order 2. The first step is one of [`Integrator::Sdirk4`].
     Bdf2,
+    /// The generalised-α method of order 2 for equations of the first order (Jansen, Whiting & Hulbert 2000), in canonical coordinates about each
+    /// step's beginning. The first step is one of [`Integrator::Sdirk4`].
+    GeneralizedAlpha {
+        /// What is left after a step of a motion that is much faster, from 0 to 1: the spectral radius `ρ∞`.
+        spectral_radius: f64,
+    },
     /// The singly diagonally implicit Runge–Kutta method of order 4 with five stages, L-stable (Hairer & Wanner, *Solving Ordinary
     /// Differential Equations II*, table IV.6.5).
     Sdirk4,
@@ -29,6 +35,7 @@ impl Integrator {
         match self {
             Self::ImplicitEuler => "implicit_euler",
             Self::Bdf2 => "bdf2",
+            Self::GeneralizedAlpha { .. } => "generalized_alpha",
             Self::Sdirk4 => "sdirk4",
         }
     }
@@ -40,6 +47,19 @@ pub(super) struct RungeKutta {
     pub diagonal: f64,
     /// What stands before it, row by row.
     pub before: &'static [&'static [f64]],
+}
+
+impl RungeKutta {
+    /// When a stage is, as a part of the step.
+    pub fn time(&self, stage: usize) -> f64 {
+        self.before[stage].iter().sum::<f64>() + self.diagonal
+    }
+
+    /// The weight of a stage in the step.
+    pub fn weight(&self, stage: usize) -> f64 {
+        let last = self.before.len() - 1;
+        if stage == last { self.diagonal } else { self.before[last][stage] }
+    }
 }
 
 pub(super) const IMPLICIT_EULER: RungeKutta = RungeKutta { diagonal: 1.0, before: &[&[]] };

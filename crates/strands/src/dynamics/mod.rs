@@ -5,27 +5,28 @@
 //! Nothing is damped but by what is asked for, and by the [`Integrator`] where its documentation says so.
 
 mod energy;
+mod failure;
+mod holds;
 mod integrator;
+mod newton;
 mod stage;
+mod start;
+mod state;
 
 pub use energy::Budget;
+pub use failure::{SimulationError, StepFailure};
 pub use integrator::Integrator;
+pub use start::Start;
+pub use state::{Past, State};
 
+use crate::assembly::{Assembly, Body, Cluster, Strand, Ties};
 use crate::math::{Pose, SimdLevel, Vec3, Vec6, Wrench};
-use crate::rod::{Order, Rod};
-use crate::statics::{self, Method, Nodal, Problem, Record, Scheme, SolveFailure, Workspace, meet};
+use crate::rod::{NodeInertia, Order};
+use crate::statics::{Network, Problem};
+use energy::Power;
 use integrator::{IMPLICIT_EULER, RungeKutta, SDIRK4};
+use newton::{Group, RodSystem};
 use stage::Stage;
-use thiserror::Error;
-
-/// What takes energy out of a rod.
-#[derive(Clone, Copy, Debug, Default, PartialEq)]
-pub struct Damping {
-    /// Kelvin–Voigt: how much stress there is for the rate of a strain, over its stiffness, s.
-    pub viscous: f64,
-    /// How fast momentum is lost, 1/s.
-    pub mass: f64,
-}
 
 /// How to step in time.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -42,8 +43,8 @@ pub struct Settings {
     /// Whether a stage takes that many and is then as good as it is, for steps of bounded cost: its residual is in the [`Step`]. Otherwise a stage that is
     /// not solved by then is a failure.
     pub bounded: bool,
-    /// What takes energy out.
-    pub damping: Damping,
+    /// How fast everything loses its momentum, 1/s.
+    pub mass_damping: f64,
 }
 
 impl Default for Settings {
@@ -54,39 +55,9 @@ impl Default for Settings {
             tolerance: 1e-9,
             max_iterations: 20,
             bounded: false,
-            damping: Damping::default(),
+            mass_damping: 0.0,
         }
     }
-}
-
-/// Where a simulation starts.
-#[derive(Clone, Debug)]
-pub enum Start {
-    /// In static equilibrium, at rest.
-    Equilibrium,
-    /// In the shape that it has when nothing acts on it, at rest.
-    Rest,
-    /// From a state of a simulation of the same rod.
-    State(Box<State>),
-}
-
-/// A rod at some time: all that its future depends on.
-#[derive(Clone, Debug, PartialEq)]
-pub struct State {
-    /// The time, s.
-    pub time: f64,
-    /// The frames of the nodes.
-    pub poses: Vec<Pose>,
-    /// How nodes turn, in their own axes, rad/s, and shift in the world, m/s.
-    pub velocities: Vec<Vec6>,
-    /// The momenta of the nodes about the simulation's origin, world axes, N·m·s and N·s.
-    pub momenta: Vec<Wrench>,
-    /// The wrench that each element carries through its far node, in that node's frame, where a stage was solved last.
-    pub wrenches: Vec<Wrench>,
-    /// What has been taken out of the rod since the start, J.
-    pub dissipated: f64,
-    /// What the integrator looks back on: frames and momenta of the step before (BDF2).
-    before: Option<(Vec<Pose>, Vec<Wrench>)>,
 }
 
 /// How a step went.
@@ -98,75 +69,6 @@ pub struct Step {
     pub iterations: usize,
     /// The largest residual of its stages.
     pub residual: f64,
-}
-
-/// Why there is no next step. The state is that before it.
-#[derive(Clone, Debug, Error, PartialEq)]
-pub enum StepFailure {
-    /// Newton's method did not come to the tolerance.
-    #[error("at {time} s a step of {step} s was not solved in {} iterations: residuals {}", history.len() - 1, written(history))]
-    NotConverged {
-        /// When, s.
-        time: f64,
-        /// The step, s.
-        step: f64,
-        /// The residuals.
-        history: Vec<f64>,
-    },
-    /// A pivot vanished, or a frame is not finite.
-    #[error("at {time} s a step of {step} s led nowhere: residuals {}", written(history))]
-    Singular {
-        /// When, s.
-        time: f64,
-        /// The step, s.
-        step: f64,
-        /// The residuals until then.
-        history: Vec<f64>,
-    },
-}
-
-fn written(history: &[f64]) -> String {
-    history.iter().map(|residual| format!("{residual:.1e}")).collect::<Vec<_>>().join(", ")
-}
-
-/// A rod at rest may be so far from its supports, in rad and over the length, and is put there.
-const AT_REST: f64 = 1e-6;
-
-/// Why a rod cannot be simulated.
-#[derive(Debug, Error)]
-pub enum SimulationError {
-    /// It is not of order 2 with a diagonal law.
-    #[error("only rods of order 2 whose law is diagonal in the strains can move")]
-    Law,
-    /// It has no mass somewhere.
-    #[error("node {0} has no mass: a rod that moves needs one everywhere")]
-    Massless(usize),
-    /// A number of the settings cannot be.
-    #[error("{what} is {value}, and must be {wanted}")]
-    Setting {
-        /// Which.
-        what: &'static str,
-        /// What it is.
-        value: f64,
-        /// What it must be.
-        wanted: &'static str,
-    },
-    /// At rest it would not be where it is held.
-    #[error(
-        "in its rest shape the rod is not where it is held at s = {0} m: start in equilibrium, or hold it there"
-    )]
-    NotHeldThere(f64),
-    /// The state is of a rod with another number of nodes.
-    #[error("the state has {got} nodes and the rod {needed}")]
-    Unfit {
-        /// How many it has.
-        got: usize,
-        /// How many the rod has.
-        needed: usize,
-    },
-    /// It has no equilibrium to start from.
-    #[error("there is no equilibrium to start from: {0}")]
-    NoEquilibrium(#[from] SolveFailure),
 }
 
 /// A rod that moves.
@@ -201,7 +103,7 @@ pub enum SimulationError {
 /// ```
 #[derive(Clone, Debug)]
 pub struct Simulation {
-    problem: Problem,
+    assembly: Assembly,
     settings: Settings,
     state: State,
     /// Where momenta are about.
@@ -209,86 +111,86 @@ pub struct Simulation {
     work: Work,
 }
 
-/// Scratch of a simulation.
+/// Scratch of a simulation, and what does not change.
 #[derive(Clone, Debug)]
 struct Work {
     level: SimdLevel,
-    nodal: Nodal,
-    record: Record,
+    ties: Ties,
+    groups: Vec<Group>,
+    /// Of all frames: what they carry, and how long a piece of a rod they stand for, m.
+    inertia: Vec<NodeInertia>,
+    lengths: Vec<f64>,
     stage: Stage,
-    /// Rates of the coordinates, and momenta of the stages before, of all nodes one stage after the other.
+    /// The frames of the stage.
+    poses: Vec<Pose>,
+    /// How long the step is, s.
+    step: f64,
+    /// Rates of the coordinates, and momenta of the stages before, of all frames one stage after the other.
     coordinate_rates: Vec<Vec6>,
     momentum_rates: Vec<Wrench>,
     history: Vec<f64>,
 }
 
 impl Simulation {
-    /// Puts a rod where it starts.
+    /// Puts a rod, or rods and bodies, where they start.
     ///
     /// # Errors
-    /// Where it is not one that can move, or has nowhere to start.
-    pub fn new(problem: Problem, settings: Settings, start: Start) -> Result<Self, SimulationError> {
-        check(&problem.rod, &settings)?;
-        let nodes = problem.rod.elements() + 1;
-        let mut record = Record::default();
-        record.fit(nodes - 1);
-        let mut state = State {
-            time: 0.0,
-            poses: problem.rod.rest_poses(),
-            velocities: vec![Vec6::ZERO; nodes],
-            momenta: vec![Wrench::ZERO; nodes],
-            wrenches: vec![Wrench::ZERO; nodes - 1],
-            dissipated: 0.0,
-            before: None,
-        };
-        match start {
-            Start::Rest => {
-                for (node, support) in problem.supports() {
-                    let apart = state.poses[node].between(&meet(support, &state.poses[node])).log();
-                    let far = apart.angular.max_abs().max(apart.linear.max_abs() / problem.rod.length());
-                    if far > AT_REST {
-                        return Err(SimulationError::NotHeldThere(problem.rod.mesh().nodes()[node]));
-                    }
-                }
-            }
-            Start::Equilibrium => {
-                let mut workspace = Workspace::default();
-                let how = statics::Settings {
-                    method: Method::Equilibrium,
-                    scheme: Scheme::Element,
-                    ..statics::Settings::default()
-                };
-                state.poses = statics::solve(&problem, &how, None, &mut workspace)?.poses;
-                state.wrenches.clone_from(&workspace.record.wrenches);
-            }
-            Start::State(given) => {
-                if given.poses.len() != nodes {
-                    return Err(SimulationError::Unfit { got: given.poses.len(), needed: nodes });
-                }
-                state = *given;
-            }
+    /// Where they are not such that can move, or have nowhere to start.
+    pub fn new(
+        assembly: impl Into<Assembly>,
+        settings: Settings,
+        start: Start,
+    ) -> Result<Self, SimulationError> {
+        let assembly = assembly.into();
+        check(&assembly, &settings)?;
+        let ties = Ties::new(&assembly)?;
+        let mut inertia = Vec::with_capacity(assembly.frames());
+        let mut lengths = Vec::with_capacity(assembly.frames());
+        for Strand { problem: Problem { rod, .. }, .. } in &assembly.strands {
+            inertia.extend_from_slice(rod.node_inertia());
+            let length = |element: Option<usize>| element.map_or(0.0, |element| rod.element_length(element));
+            let about = |i: usize| length(i.checked_sub(1)) + length((i < rod.elements()).then_some(i));
+            lengths.extend((0..=rod.elements()).map(|i| 0.5 * about(i)));
         }
-        let origin = problem.rod.description().base.position;
+        inertia.extend(assembly.bodies.iter().map(|body| body.inertia));
+        lengths.resize(inertia.len(), 0.0);
+        let groups = assembly.clusters(&ties).into_iter().map(|Cluster { rods, bodies }| {
+            let is_tied = |rod: &usize| assembly.nodes(*rod).any(|frame| ties.tied[frame]);
+            let alone = bodies.is_empty() && !rods.iter().any(is_tied);
+            let network = (!alone).then(|| Network::new(&assembly, &ties, &rods, &bodies));
+            let rods = rods.iter().map(|rod| RodSystem::new(&assembly, *rod)).collect();
+            Group { rods, bodies, network }
+        });
         let work = Work {
             level: SimdLevel::detect(),
-            nodal: Nodal::default(),
-            record,
+            groups: groups.collect(),
+            ties,
+            inertia,
+            lengths,
             stage: Stage::default(),
+            poses: Vec::new(),
+            step: settings.time_step,
             coordinate_rates: Vec::new(),
             momentum_rates: Vec::new(),
             history: Vec::new(),
         };
-        Ok(Self { problem, settings, state, origin, work })
+        let state = State::at_rest(&assembly, assembly.rest_poses());
+        let first = assembly.strands.first().map(|strand| strand.problem.rod.description().base.position);
+        let origin = first.unwrap_or(Vec3::ZERO);
+        let mut simulation = Self { assembly, settings, state, origin, work };
+        simulation.start(start)?;
+        Ok(simulation)
     }
 
-    /// The rod, its loads and supports.
-    pub fn problem(&self) -> &Problem {
-        &self.problem
+    /// The rods, bodies and joints.
+    pub fn assembly(&self) -> &Assembly {
+        &self.assembly
     }
 
-    /// The same, to move a support, let go of it or change a load between steps. The rod and its number of nodes stay.
-    pub fn problem_mut(&mut self) -> &mut Problem {
-        &mut self.problem
+    /// The same, to change loads, drag and wind, to move what holds it or to let go of it between steps. The rods, their numbers of nodes, the bodies'
+    /// inertia and the joints stay.
+    pub fn assembly_mut(&mut self) -> &mut Assembly {
+        &mut self.assembly
     }
 
     /// How steps are made.
@@ -296,22 +198,38 @@ impl Simulation {
         &self.settings
     }
 
-    /// Where it is now.
+    /// Where all is now.
     pub fn state(&self) -> &State {
         &self.state
     }
 
-    /// Sets it going: how nodes turn, in their own axes, rad/s, and shift in the world, m/s.
+    /// Goes to a state of this simulation, or of another one of the same assembly.
+    ///
+    /// # Errors
+    /// Where it is of another assembly.
+    pub fn restore(&mut self, state: State) -> Result<(), SimulationError> {
+        let needed = self.assembly.frames();
+        let got = state.poses.len();
+        let fits = got == needed
+            && [state.velocities.len(), state.momenta.len()] == [needed; 2]
+            && state.wrenches.len() == self.state.wrenches.len();
+        if !fits {
+            return Err(SimulationError::Unfit { got, needed });
+        }
+        self.state = state;
+        Ok(())
+    }
+
+    /// Sets all going: how frames turn, in their own axes, rad/s, and shift in the world, m/s.
     pub fn set_velocities(&mut self, velocities: &[Vec6]) {
         self.state.velocities.copy_from_slice(velocities);
-        let inertia = self.problem.rod.node_inertia();
         for (i, momentum) in self.state.momenta.iter_mut().enumerate() {
-            let pose = &self.state.poses[i];
-            let spin = pose.rotation * inertia[i].rotational.scale(velocities[i].angular);
-            let linear = velocities[i].linear * inertia[i].mass;
+            let (pose, NodeInertia { mass, rotational }) = (&self.state.poses[i], self.work.inertia[i]);
+            let spin = pose.rotation * rotational.scale(velocities[i].angular);
+            let linear = velocities[i].linear * mass;
             *momentum = Wrench::new(spin + (pose.position - self.origin).cross(linear), linear);
         }
-        self.state.before = None;
+        self.state.past = Past::None;
     }
 
     /// Makes one step.
@@ -319,82 +237,127 @@ impl Simulation {
     /// # Errors
     /// Where it cannot be made; the state is then as before.
     pub fn step(&mut self) -> Result<Step, StepFailure> {
-        match self.settings.integrator {
-            Integrator::ImplicitEuler => self.runge_kutta(&IMPLICIT_EULER),
-            Integrator::Sdirk4 => self.runge_kutta(&SDIRK4),
-            Integrator::Bdf2 => self.bdf2(),
-        }
+        self.work.step = self.settings.time_step;
+        let held = holds::Held::begin(self);
+        let step = match self.settings.integrator {
+            Integrator::ImplicitEuler => self.runge_kutta(&IMPLICIT_EULER, &held),
+            Integrator::Sdirk4 => self.runge_kutta(&SDIRK4, &held),
+            Integrator::Bdf2 => self.bdf2(&held),
+            Integrator::GeneralizedAlpha { spectral_radius } => {
+                self.generalized_alpha(spectral_radius, &held)
+            }
+        };
+        held.end(self);
+        step
     }
 
-    fn runge_kutta(&mut self, method: &RungeKutta) -> Result<Step, StepFailure> {
-        let (h, nodes) = (self.settings.time_step, self.state.poses.len());
-        let (mut taken, viscous) = (Taken::default(), self.settings.damping.viscous > 0.0);
+    fn runge_kutta(&mut self, method: &RungeKutta, held: &holds::Held) -> Result<Step, StepFailure> {
+        let (h, frames) = (self.work.step, self.state.poses.len());
+        let (mut taken, mut lost) = (Taken::default(), Power::default());
         self.work.coordinate_rates.clear();
         self.work.momentum_rates.clear();
-        self.work.stage.begin(&self.state, &self.problem, viscous);
-        let mut dissipated = 0.0;
+        self.work.stage.begin(&self.state);
         for (number, before) in method.before.iter().enumerate() {
-            let Work { stage, coordinate_rates, momentum_rates, .. } = &mut self.work;
+            held.at(method.time(number), self);
+            let Work { stage, coordinate_rates, momentum_rates, poses, .. } = &mut self.work;
             stage.set_up(method.diagonal * h, &self.state);
-            let rates = coordinate_rates.chunks(nodes).zip(momentum_rates.chunks(nodes));
+            let rates = coordinate_rates.chunks(frames).zip(momentum_rates.chunks(frames));
             for (a, (coordinates, momenta)) in before.iter().zip(rates) {
                 stage.add_history(a * h, coordinates, momenta);
             }
-            if number == 0 {
-                stage.predict_by_velocities(&self.state.velocities);
-            } else {
-                stage.predict_by_velocities(&coordinate_rates[(number - 1) * nodes..]);
+            poses.resize(frames, Pose::IDENTITY);
+            match number.checked_sub(1) {
+                None => stage.predict(&self.state.velocities, poses),
+                Some(last) => stage.predict(&coordinate_rates[last * frames..], poses),
             }
             taken.add(self.solve_stage()?);
             let Work { stage, coordinate_rates, momentum_rates, .. } = &mut self.work;
             coordinate_rates.extend_from_slice(&stage.coordinate_rates);
             momentum_rates.extend(stage.momentum_rates());
-            let weight = weight_of(method, number);
-            dissipated += weight * h * self.dissipation();
+            let (power, times) = (self.power(), method.weight(number) * h);
+            lost.dissipated += power.dissipated * times;
+            lost.worked += power.worked * times;
         }
-        Ok(self.taken(taken, dissipated))
+        Ok(self.taken(taken, lost))
     }
 
-    fn bdf2(&mut self) -> Result<Step, StepFailure> {
-        let Some((poses, momenta)) = self.state.before.take() else {
+    fn bdf2(&mut self, held: &holds::Held) -> Result<Step, StepFailure> {
+        let Past::Before { poses, momenta } = &self.state.past else {
             let now = (self.state.poses.clone(), self.state.momenta.clone());
-            let step = self.runge_kutta(&SDIRK4)?;
-            self.state.before = Some(now);
+            let step = self.runge_kutta(&SDIRK4, held)?;
+            self.state.past = Past::Before { poses: now.0, momenta: now.1 };
             return Ok(step);
         };
-        let h = self.settings.time_step;
-        let viscous = self.settings.damping.viscous > 0.0;
-        let stage = &mut self.work.stage;
-        stage.begin(&self.state, &self.problem, viscous);
+        let h = self.work.step;
+        let Work { stage, poses: guess, .. } = &mut self.work;
+        stage.begin(&self.state);
         stage.set_up(2.0 / 3.0 * h, &self.state);
-        stage.look_back(&poses, &momenta);
-        stage.predict_by_velocities(&self.state.velocities);
-        let mut taken = Taken::default();
-        match self.solve_stage() {
-            Ok(stage) => taken.add(stage),
-            Err(failure) => {
-                self.state.before = Some((poses, momenta));
-                return Err(failure);
+        stage.look_back(poses, momenta);
+        guess.resize(poses.len(), Pose::IDENTITY);
+        stage.predict(&self.state.velocities, guess);
+        let taken = self.solve_stage()?;
+        let Power { dissipated, worked } = self.power();
+        let state = &mut self.state;
+        if let Past::Before { poses, momenta } = &mut state.past {
+            poses.copy_from_slice(&state.poses);
+            momenta.copy_from_slice(&state.momenta);
+        }
+        Ok(self.taken(taken, Power { dissipated: dissipated * h, worked: worked * h }))
+    }
+
+    fn generalized_alpha(&mut self, radius: f64, held: &holds::Held) -> Result<Step, StepFailure> {
+        let Past::Rates { momentum, mean_velocity, mean_momentum } = &self.state.past else {
+            let step = self.runge_kutta(&SDIRK4, held)?;
+            let momentum: Vec<Wrench> = self.work.stage.momentum_rates().collect();
+            self.state.past = Past::Rates {
+                mean_velocity: self.state.velocities.clone(),
+                mean_momentum: momentum.clone(),
+                momentum,
+            };
+            return Ok(step);
+        };
+        // In terms of Jansen, Whiting & Hulbert `α_m` and `α_f` are one less these.
+        let alpha_m = (3.0 * radius - 1.0) / (2.0 * (1.0 + radius));
+        let alpha_f = radius / (1.0 + radius);
+        let gamma = 0.5 - alpha_m + alpha_f;
+        let h = self.work.step;
+        let (of_mean, of_now) = (gamma * alpha_m / (1.0 - alpha_m), gamma / (1.0 - alpha_m));
+        let Work { stage, poses, .. } = &mut self.work;
+        stage.begin(&self.state);
+        stage.set_up(of_now * (1.0 - alpha_f) * h, &self.state);
+        stage.add_history(h * (1.0 - gamma - of_mean), mean_velocity, mean_momentum);
+        stage.add_history(h * of_now * alpha_f, &self.state.velocities, momentum);
+        poses.resize(self.state.poses.len(), Pose::IDENTITY);
+        stage.predict(&self.state.velocities, poses);
+        let taken = self.solve_stage()?;
+        let Power { dissipated, worked } = self.power();
+        let Self { state, work: Work { stage, poses, .. }, .. } = self;
+        let mean = |now: Vec6, before: Vec6, mean: Vec6| {
+            (now * (1.0 - alpha_f) + before * alpha_f - mean * alpha_m) * (1.0 / (1.0 - alpha_m))
+        };
+        if let Past::Rates { momentum, mean_velocity, mean_momentum } = &mut state.past {
+            for (i, rate) in stage.momentum_rates().enumerate() {
+                let velocity = mean(stage.coordinate_rates[i], state.velocities[i], mean_velocity[i]);
+                mean_velocity[i] = stage.turned_with(i, &poses[i], velocity);
+                mean_momentum[i] = mean(rate, momentum[i], mean_momentum[i]);
+                momentum[i] = rate;
             }
         }
-        let dissipated = h * self.dissipation();
-        let state = &mut self.state;
-        let (mut before_poses, mut before_momenta) = (poses, momenta);
-        before_poses.copy_from_slice(&state.poses);
-        before_momenta.copy_from_slice(&state.momenta);
-        state.before = Some((before_poses, before_momenta));
-        Ok(self.taken(taken, dissipated))
+        Ok(self.taken(taken, Power { dissipated: dissipated * h, worked: worked * h }))
     }
 
     /// Ends a step where its last stage is.
-    fn taken(&mut self, taken: Taken, dissipated: f64) -> Step {
-        let Self { state, work: Work { record, stage, .. }, settings, .. } = self;
-        state.poses.copy_from_slice(&record.poses);
-        state.wrenches.copy_from_slice(&record.wrenches);
+    fn taken(&mut self, taken: Taken, lost: Power) -> Step {
+        let Self { state, work: Work { groups, stage, poses, step, .. }, assembly, .. } = self;
+        state.poses.copy_from_slice(poses);
+        for RodSystem { rod, record, .. } in groups.iter().flat_map(|group| &group.rods) {
+            state.wrenches[assembly.elements(*rod)].copy_from_slice(&record.wrenches);
+        }
         state.velocities.copy_from_slice(&stage.velocities);
         state.momenta.copy_from_slice(&stage.momenta);
-        state.dissipated += dissipated;
-        state.time += settings.time_step;
+        state.dissipated += lost.dissipated;
+        state.worked += lost.worked;
+        state.time += *step;
         Step { time: state.time, iterations: taken.iterations, residual: taken.residual }
     }
 }
@@ -413,34 +376,43 @@ impl Taken {
     }
 }
 
-/// The weight of a stage in the step.
-fn weight_of(method: &RungeKutta, stage: usize) -> f64 {
-    let last = method.before.len() - 1;
-    if stage == last { method.diagonal } else { method.before[last][stage] }
-}
-
 /// A pose as seen from axes about another origin.
 fn about(origin: Vec3, pose: &Pose) -> Pose {
     Pose { rotation: pose.rotation, position: pose.position - origin }
 }
 
-fn check(rod: &Rod, settings: &Settings) -> Result<(), SimulationError> {
-    if rod.order() != Order::Second || rod.diagonal_points().is_none() {
-        return Err(SimulationError::Law);
+fn check(assembly: &Assembly, settings: &Settings) -> Result<(), SimulationError> {
+    for (i, Strand { problem: Problem { rod, .. }, .. }) in assembly.strands.iter().enumerate() {
+        if rod.order() != Order::Second || rod.diagonal_points().is_none() {
+            return Err(SimulationError::Law(i));
+        }
+        if rod.node_inertia().iter().any(|node| node.mass <= 0.0) {
+            return Err(SimulationError::Massless { what: "rod", which: i });
+        }
     }
-    if let Some(node) = rod.node_inertia().iter().position(|node| node.mass <= 0.0) {
-        return Err(SimulationError::Massless(node));
+    let light = |body: &Body| {
+        body.inertia.mass <= 0.0 || body.inertia.rotational.to_array().iter().any(|x| *x <= 0.0)
+    };
+    if let Some(which) = assembly.bodies.iter().position(light) {
+        return Err(SimulationError::Massless { what: "body", which });
     }
-    let Settings { time_step, tolerance, damping, .. } = *settings;
     let setting = |what, value, fits: bool, wanted| {
         if fits { Ok(()) } else { Err(SimulationError::Setting { what, value, wanted }) }
     };
+    let Settings { time_step, tolerance, mass_damping, integrator, .. } = *settings;
     let positive = |value: f64| value > 0.0 && value.is_finite();
     setting("the time step", time_step, positive(time_step), "greater than 0")?;
     setting("the tolerance", tolerance, positive(tolerance), "greater than 0")?;
     let not_negative = |value: f64| value >= 0.0 && value.is_finite();
-    setting("the viscous damping", damping.viscous, not_negative(damping.viscous), "0 or more")?;
-    setting("the damping of mass", damping.mass, not_negative(damping.mass), "0 or more")?;
+    setting("the damping of mass", mass_damping, not_negative(mass_damping), "0 or more")?;
+    if let Integrator::GeneralizedAlpha { spectral_radius: radius } = integrator {
+        setting("the spectral radius", radius, (0.0..=1.0).contains(&radius), "from 0 to 1")?;
+    }
+    for Strand { viscosity, drag, .. } in &assembly.strands {
+        setting("the viscosity", *viscosity, not_negative(*viscosity), "0 or more")?;
+        setting("the linear drag", drag.linear, not_negative(drag.linear), "0 or more")?;
+        setting("the quadratic drag", drag.quadratic, not_negative(drag.quadratic), "0 or more")?;
+    }
     Ok(())
 }
 

@@ -16,12 +16,14 @@
 
 mod elimination;
 mod motion;
+mod network;
 mod second_variation;
 mod side_by_side;
 
 pub(crate) use elimination::Inertia;
 use elimination::{Block, Eliminate, Square, pair, parts};
 pub(crate) use motion::{Inertial, Motion};
+pub(crate) use network::Network;
 pub(crate) use second_variation::SecondVariation;
 use second_variation::TURNING;
 pub(crate) use side_by_side::{SideBySide, of_lane};
@@ -29,6 +31,7 @@ pub(crate) use side_by_side::{SideBySide, of_lane};
 use super::boundary::{displacements, displacements_slope, meet};
 use super::march::Record;
 use super::problem::Problem;
+use crate::coupling::Grip;
 use crate::element::{self, DiagonalPoint, Resistance, diagonal_resistance};
 use crate::math::{
     Kernel, Lanes, Mat3, Mat6, Pose, Real, SimdLevel, Vec3, Vec6, Wide, Wrench, dispatch, larger, largest,
@@ -218,13 +221,9 @@ impl Nodal {
         }
         for (node, end) in problem.supports() {
             let Some(grip) = &end.grip else { continue };
-            let (pose, at) = (&state.poses[node], self.places[node]);
-            let wrench = axes.wrench(grip.wrench(pose));
-            self.loads[node] += Wrench::new(wrench.angular + at.cross(wrench.linear), wrench.linear);
-            let (by_turn, by_shift) = grip.stiffness(pose);
-            let by_turn = by_turn.scaled(1.0 / axes.moment) * pose.rotation.transpose();
-            let by_shift = by_shift.scaled(axes.length / axes.force);
-            self.load_slopes.push((node, force_slope(at, by_turn, [Mat3::ZERO, by_shift]).to_rows()));
+            let (wrench, slope) = grip_acts(grip, &state.poses[node], self.places[node], axes);
+            self.loads[node] += wrench;
+            self.load_slopes.push((node, slope.to_rows()));
         }
     }
 
@@ -553,6 +552,16 @@ fn force_slope(at: Vec3, by_turn: Mat3, [moment, force]: [Mat3; 2]) -> Mat6 {
     Mat6 { blocks: [moment, force] }
 }
 
+/// What a grip exerts on a frame at a place, its moment about the origin, and how that changes with the frame.
+fn grip_acts(grip: &Grip, pose: &Pose, at: Vec3, axes: &Axes) -> (Wrench, Mat6) {
+    let wrench = axes.wrench(grip.wrench(pose));
+    let (by_turn, by_shift) = grip.stiffness(pose);
+    let by_turn = by_turn.scaled(1.0 / axes.moment) * pose.rotation.transpose();
+    let by_shift = by_shift.scaled(axes.length / axes.force);
+    let acts = Wrench::new(wrench.angular + at.cross(wrench.linear), wrench.linear);
+    (acts, force_slope(at, by_turn, [Mat3::ZERO, by_shift]))
+}
+
 /// Elements of a rod of order 2 with a diagonal law, side by side, in the fixed axes.
 struct Elements {
     compliance: Vec6<Side>,
@@ -664,7 +673,7 @@ impl Kernel for Linearise<'_> {
 
 /// Fixed axes about the rod's start, in which lengths, forces and moments are numbers of order one.
 #[derive(Clone, Copy, Debug)]
-struct Axes {
+pub(crate) struct Axes {
     origin: Vec3,
     length: f64,
     force: f64,

@@ -154,7 +154,7 @@ pub(super) fn pair<R: Real>(a: [R; 6]) -> Vec6<Vec3<R>> {
 }
 
 #[inline(always)]
-fn add<R: Real>(to: &mut Square<R>, block: &Square<R>) {
+pub(super) fn add<R: Real>(to: &mut Square<R>, block: &Square<R>) {
     for r in 0..6 {
         for c in 0..6 {
             to[r][c] += block[r][c];
@@ -163,7 +163,7 @@ fn add<R: Real>(to: &mut Square<R>, block: &Square<R>) {
 }
 
 #[inline(always)]
-fn subtract<R: Real, const COLUMNS: usize>(from: &mut Square<R>, block: &[[R; COLUMNS]; 6]) {
+pub(super) fn subtract<R: Real, const COLUMNS: usize>(from: &mut Square<R>, block: &[[R; COLUMNS]; 6]) {
     for r in 0..6 {
         for c in 0..6 {
             from[r][c] -= block[r][c];
@@ -191,7 +191,7 @@ pub(super) fn subtract_dead_moment_slope<R: Real>(from: &mut Square<R>, at: Vec3
 
 /// `F + A`: how what the element exerts on its far node changes with that node.
 #[inline(always)]
-fn on_far<R: Real>(link: &Link<R>) -> Square<R> {
+pub(super) fn on_far<R: Real>(link: &Link<R>) -> Square<R> {
     let mut block = link.stiffness;
     add_coadjoint(&mut block, link.carried);
     block
@@ -323,7 +323,10 @@ fn to_next<R: Real>(stiffness: &Square<R>, follow: &Block<R>, columns: usize, ne
 
 /// The product of a block with another, or with one and what stands beside it.
 #[inline(always)]
-fn product<R: Real, const COLUMNS: usize>(a: &Square<R>, b: &[[R; COLUMNS]; 6]) -> [[R; COLUMNS]; 6] {
+pub(super) fn product<R: Real, const COLUMNS: usize>(
+    a: &Square<R>,
+    b: &[[R; COLUMNS]; 6],
+) -> [[R; COLUMNS]; 6] {
     let mut out = [[R::zero(); COLUMNS]; 6];
     multiply(a, b, &mut out);
     out
@@ -369,7 +372,7 @@ fn column<R: Real, const COLUMNS: usize>(block: &[[R; COLUMNS]; 6], c: usize) ->
 }
 
 #[inline(always)]
-fn transposed<R: Real>(a: &Square<R>) -> Square<R> {
+pub(super) fn transposed<R: Real>(a: &Square<R>) -> Square<R> {
     core::array::from_fn(|r| core::array::from_fn(|c| a[c][r]))
 }
 

@@ -4,7 +4,7 @@ use super::super::march::Record;
 use super::super::problem::Problem;
 use super::{Axes, Distance, Nodal, force_slope};
 use crate::element::DiagonalPoint;
-use crate::math::{Mat3, SimdLevel, Wrench};
+use crate::math::{Mat3, Mat6, SimdLevel, Vec3, Wrench};
 
 /// What motion adds to a rod at rest.
 pub(crate) struct Motion<'a> {
@@ -39,17 +39,26 @@ impl Nodal {
         self.linearise_in_its_axes(problem, level, lent, Some(motion), state)
     }
 
+    /// The same in axes that several rods share.
+    pub fn linearise_in(
+        &mut self,
+        axes: Axes,
+        problem: &Problem,
+        level: SimdLevel,
+        lent: f64,
+        motion: &Motion,
+        state: &mut Record,
+    ) -> Option<Distance> {
+        self.axes = axes;
+        self.linearise_in_its_axes(problem, level, lent, Some(motion), state)
+    }
+
     /// Adds what the change of its momentum exerts on each node.
     pub(super) fn move_with(&mut self, inertial: &[Inertial], axes: &Axes) {
         for (i, node) in inertial.iter().enumerate() {
             let (at, exerts) = (self.places[i], axes.wrench(node.exerts));
             self.loads[i] += Wrench::new(exerts.angular + at.cross(exerts.linear), exerts.linear);
-            let by_turn = node.by_turn.scaled(1.0 / axes.moment);
-            let by_shift = [
-                node.by_shift[0].scaled(axes.length / axes.moment),
-                node.by_shift[1].scaled(axes.length / axes.force),
-            ];
-            self.load_slopes.push((i, force_slope(at, by_turn, by_shift).to_rows()));
+            self.load_slopes.push((i, node.slope(at, axes).to_rows()));
         }
     }
 
@@ -58,5 +67,17 @@ impl Nodal {
     pub fn left_over(&self, node: usize) -> Wrench {
         let w = self.imbalance(node);
         self.axes.in_units(Wrench::new(w.angular - self.places[node].cross(w.linear), w.linear))
+    }
+}
+
+impl Inertial {
+    /// How what is exerted at a place changes with the frame there, in some axes.
+    pub(super) fn slope(&self, at: Vec3, axes: &Axes) -> Mat6 {
+        let by_turn = self.by_turn.scaled(1.0 / axes.moment);
+        let by_shift = [
+            self.by_shift[0].scaled(axes.length / axes.moment),
+            self.by_shift[1].scaled(axes.length / axes.force),
+        ];
+        force_slope(at, by_turn, by_shift)
     }
 }

@@ -1,4 +1,7 @@
-use super::{Damping, Integrator, Settings, Simulation, Start};
+mod network;
+
+use super::{Integrator, Settings, Simulation, Start};
+use crate::assembly::Strand;
 use crate::load::NodalLoads;
 use crate::math::{Pose, Vec3, Vec6};
 use crate::rod::{
@@ -34,7 +37,8 @@ fn simulated(problem: Problem, integrator: Integrator, time_step: f64, start: St
     Simulation::new(problem, Settings { integrator, time_step, ..Settings::default() }, start).unwrap()
 }
 
-const ALL: [Integrator; 3] = [Integrator::ImplicitEuler, Integrator::Bdf2, Integrator::Sdirk4];
+const ALPHA: Integrator = Integrator::GeneralizedAlpha { spectral_radius: 0.8 };
+const ALL: [Integrator; 4] = [Integrator::ImplicitEuler, Integrator::Bdf2, ALPHA, Integrator::Sdirk4];
 
 #[test]
 fn integrators_have_their_order() {
@@ -61,10 +65,11 @@ fn integrators_have_their_order() {
                 integrator,
                 time_step: 0.8 / steps as f64,
                 tolerance: 1e-10,
-                damping: Damping { viscous, mass: 0.1 },
+                mass_damping: 0.1,
                 ..Settings::default()
             };
-            let mut simulation = Simulation::new(problem.clone(), settings, Start::Rest).unwrap();
+            let strand = Strand { viscosity: viscous, ..problem.clone().into() };
+            let mut simulation = Simulation::new(strand, settings, Start::Rest).unwrap();
             for _ in 0..steps {
                 simulation.step().unwrap();
             }
@@ -73,9 +78,12 @@ fn integrators_have_their_order() {
             tip
         };
         let exact = after(Integrator::Sdirk4, 640);
-        for (integrator, order, steps) in
-            [(Integrator::ImplicitEuler, 1.0, 80), (Integrator::Bdf2, 2.0, 40), (Integrator::Sdirk4, 4.0, 12)]
-        {
+        for (integrator, order, steps) in [
+            (Integrator::ImplicitEuler, 1.0, 80),
+            (Integrator::Bdf2, 2.0, 40),
+            (ALPHA, 2.0, 40),
+            (Integrator::Sdirk4, 4.0, 12),
+        ] {
             let error = |steps: usize| after(integrator, steps).between(&exact).log().max_abs();
             let measured = (error(steps) / error(4 * steps)).log2() / 2.0;
             assert!((measured - order).abs() < 0.2, "{}, {viscous} s: {measured}", integrator.name());
@@ -110,13 +118,9 @@ fn a_rod_in_free_flight_keeps_its_momentum() {
 #[test]
 fn a_viscous_rod_comes_to_rest_where_statics_says() {
     let problem = heavy(suture(40));
-    let settings = Settings {
-        integrator: Integrator::Bdf2,
-        time_step: 1e-3,
-        damping: Damping { viscous: 0.05, mass: 0.0 },
-        ..Settings::default()
-    };
-    let mut simulation = Simulation::new(problem.clone(), settings, Start::Rest).unwrap();
+    let settings = Settings { integrator: Integrator::Bdf2, time_step: 1e-3, ..Settings::default() };
+    let strand = Strand { viscosity: 0.05, ..problem.clone().into() };
+    let mut simulation = Simulation::new(strand, settings, Start::Rest).unwrap();
     let began = simulation.energy().total();
     for _ in 0..3000 {
         simulation.step().unwrap();
@@ -136,9 +140,12 @@ fn drag_on_mass_takes_speed_as_it_says() {
     let rod = suture(10);
     let base = rod.description().base;
     let free = Problem { start: Support::free(base), ..Problem::cantilever(rod) };
-    let damping = Damping { viscous: 0.0, mass: 2.0 };
-    let settings =
-        Settings { integrator: Integrator::Sdirk4, time_step: 0.01, damping, ..Settings::default() };
+    let settings = Settings {
+        integrator: Integrator::Sdirk4,
+        time_step: 0.01,
+        mass_damping: 2.0,
+        ..Settings::default()
+    };
     let mut simulation = Simulation::new(free, settings, Start::Rest).unwrap();
     simulation.set_velocities(&[Vec6::new(Vec3::ZERO, Vec3::new(0.3, 0.1, -0.2)); 11]);
     let (before, _) = simulation.momentum();
@@ -180,7 +187,7 @@ fn a_beam_vibrates_at_its_frequency_in_both_planes() {
             / (2.0 * std::f64::consts::PI);
         let time_step = 1.0 / (100.0 * expected);
         let mut simulation = simulated(held, Integrator::Sdirk4, time_step, Start::Equilibrium);
-        simulation.problem_mut().loads = loads;
+        simulation.assembly_mut().strands[0].problem.loads = loads;
         let (mut crossings, mut last) = (Vec::new(), 1.0);
         while crossings.len() < 9 {
             let time = simulation.step().unwrap().time;
@@ -197,8 +204,8 @@ fn a_beam_vibrates_at_its_frequency_in_both_planes() {
 
 #[test]
 fn a_suture_without_damping_keeps_swinging() {
-    for elements in [25, 100] {
-        let mut simulation = simulated(heavy(suture(elements)), Integrator::Bdf2, 1e-3, Start::Rest);
+    for (elements, integrator) in [(25, Integrator::Bdf2), (100, Integrator::Bdf2), (100, ALPHA)] {
+        let mut simulation = simulated(heavy(suture(elements)), integrator, 1e-3, Start::Rest);
         let began = simulation.energy().total();
         let mut most: f64 = 0.0;
         for _ in 0..2000 {

@@ -1,0 +1,92 @@
+//! What can go wrong in motion.
+
+use crate::assembly::AssemblyError;
+use crate::statics::SolveFailure;
+use thiserror::Error;
+
+/// Why there is no next step. The state is that before it.
+#[derive(Clone, Debug, Error, PartialEq)]
+pub enum StepFailure {
+    /// Newton's method did not come to the tolerance.
+    #[error("at {time} s a step of {step} s was not solved in {} iterations: residuals {}", history.len() - 1, written(history))]
+    NotConverged {
+        /// When, s.
+        time: f64,
+        /// The step, s.
+        step: f64,
+        /// The residuals.
+        history: Vec<f64>,
+    },
+    /// A pivot vanished, or a frame is not finite.
+    #[error("at {time} s a step of {step} s led nowhere: residuals {}", written(history))]
+    Singular {
+        /// When, s.
+        time: f64,
+        /// The step, s.
+        step: f64,
+        /// The residuals until then.
+        history: Vec<f64>,
+    },
+}
+
+fn written(history: &[f64]) -> String {
+    history.iter().map(|residual| format!("{residual:.1e}")).collect::<Vec<_>>().join(", ")
+}
+
+/// Why an assembly cannot be simulated.
+#[derive(Debug, Error)]
+pub enum SimulationError {
+    /// A rod is not of order 2 with a diagonal law.
+    #[error("rod {0}: only rods of order 2 whose law is diagonal in the strains can move")]
+    Law(usize),
+    /// A rod or body has no mass somewhere.
+    #[error("{what} {which} has no mass somewhere: what moves needs one everywhere")]
+    Massless {
+        /// "rod" or "body".
+        what: &'static str,
+        /// Its number.
+        which: usize,
+    },
+    /// A number of the settings cannot be.
+    #[error("{what} is {value}, and must be {wanted}")]
+    Setting {
+        /// Which.
+        what: &'static str,
+        /// What it is.
+        value: f64,
+        /// What it must be.
+        wanted: &'static str,
+    },
+    /// At rest a rod would not be where it is held.
+    #[error(
+        "in its rest shape rod {rod} is not where it is held at s = {s} m: start in equilibrium, or hold it there"
+    )]
+    NotHeldThere {
+        /// The rod.
+        rod: usize,
+        /// Where along it, m.
+        s: f64,
+    },
+    /// The state is of another assembly.
+    #[error("the state has {got} frames and the assembly {needed}")]
+    Unfit {
+        /// How many it has.
+        got: usize,
+        /// How many the assembly has.
+        needed: usize,
+    },
+    /// The joints cannot be.
+    #[error(transparent)]
+    Assembly(#[from] AssemblyError),
+    /// A rod has no equilibrium to start from.
+    #[error("rod {rod} has no equilibrium to start from: {reason}")]
+    NoEquilibrium {
+        /// The rod.
+        rod: usize,
+        /// Why.
+        reason: Box<SolveFailure>,
+    },
+    /// Rods and bodies that are tied together do not come to rest.
+    #[error("no equilibrium to start from was found: {0}")]
+    NoRest(StepFailure),
+}

@@ -1,0 +1,98 @@
+//! What holds frames while a step goes on.
+//!
+//! A support that is elsewhere than where its frame is has moved since the last step, and does so evenly: at a stage in the middle of the step it is
+//! in between. So does the hand of a grip, whose damper looks back on where hand and frame were.
+
+use super::Simulation;
+use crate::assembly::{Assembly, Member};
+use crate::coupling::LastFrame;
+use crate::math::Pose;
+use crate::statics::{Support, meet};
+
+/// A support that moves during a step, and the frame it holds.
+struct Moving {
+    member: Member,
+    /// Where it is at the step's end.
+    target: Pose,
+    /// From where the frame has to be at the end to where it is at the beginning, in the world.
+    back: Pose,
+    hand: Option<Hand>,
+}
+
+/// A hand that holds on through a coupling.
+struct Hand {
+    /// Where it is at the step's end, and at its beginning.
+    target: Pose,
+    before: Pose,
+}
+
+/// All supports of a step that moves some of them.
+pub(super) struct Held {
+    moving: Vec<Moving>,
+    step: f64,
+}
+
+impl Held {
+    pub fn begin(simulation: &Simulation) -> Self {
+        let (assembly, state) = (&simulation.assembly, &simulation.state);
+        let mut moving = Vec::new();
+        for member in held(assembly) {
+            let (Some(frame), Some(support)) = (assembly.frame(member), assembly.support(member)) else {
+                continue;
+            };
+            let pose = state.poses[frame];
+            let met = meet(support, &pose);
+            let back = pose.compose(&met.inverse());
+            let hand = support.grip.map(|grip| {
+                let before = grip.last.map_or(grip.hand, |last| last.hand);
+                Hand { target: grip.hand, before }
+            });
+            if hand.is_some() || back.log().max_abs() > 0.0 {
+                moving.push(Moving { member, target: support.pose, back, hand });
+            }
+        }
+        Self { moving, step: simulation.work.step }
+    }
+
+    /// Puts all where they are when a part of the step is over.
+    pub fn at(&self, part: f64, simulation: &mut Simulation) {
+        let Simulation { assembly, state, .. } = simulation;
+        for moving in &self.moving {
+            let frame = assembly.frame(moving.member).unwrap_or_default();
+            let Some(support) = assembly.support_mut(moving.member) else { continue };
+            let rest = Pose::exp(moving.back.log() * (1.0 - part));
+            support.pose = rest.compose(&moving.target);
+            if let (Some(hand), Some(grip)) = (&moving.hand, &mut support.grip) {
+                grip.hand = hand.before.compose(&Pose::exp(hand.before.between(&hand.target).log() * part));
+                let time_step = part * self.step;
+                grip.last = Some(LastFrame { hand: hand.before, held: state.poses[frame], time_step });
+            }
+        }
+    }
+
+    /// Puts all where they are at the step's end.
+    pub fn end(self, simulation: &mut Simulation) {
+        self.at(1.0, simulation);
+        let Simulation { assembly, state, .. } = simulation;
+        for moving in &self.moving {
+            let frame = assembly.frame(moving.member).unwrap_or_default();
+            let Some(support) = assembly.support_mut(moving.member) else { continue };
+            support.pose = moving.target;
+            if let Some(grip) = &mut support.grip {
+                let (hand, held) = (grip.hand, state.poses[frame]);
+                grip.last = Some(LastFrame { hand, held, time_step: self.step });
+            }
+        }
+    }
+}
+
+/// All frames that are held.
+fn held(assembly: &Assembly) -> Vec<Member> {
+    let rods = assembly.strands.iter().enumerate().flat_map(|(rod, strand)| {
+        let held = strand.problem.supports().filter(|(_, support)| Support::holds_anything(support));
+        held.map(move |(node, _)| Member::Node { rod, node })
+    });
+    let bodies = assembly.bodies.iter().enumerate();
+    let bodies = bodies.filter(|(_, body)| body.support.as_ref().is_some_and(Support::holds_anything));
+    rods.chain(bodies.map(|(body, _)| Member::Body(body))).collect()
+}

@@ -1,0 +1,316 @@
+//! Newton's method for one stage of a step.
+
+use super::stage::{Resistance, Stage};
+use super::{Simulation, StepFailure, Taken};
+use crate::assembly::{Assembly, Member, Ties};
+use crate::math::{Pose, SimdLevel, Vec3, Wrench, larger};
+use crate::rod::{Kinematics, NodeInertia};
+use crate::statics::{Motion, Network, Nodal, Problem, Record, Support, meet, rigid_compliance};
+
+/// Round-off of a frame, with room, over that of a number.
+const ROUND_OFF: f64 = 4.0;
+
+/// Rods and bodies that move independently of all others.
+#[derive(Clone, Debug)]
+pub(super) struct Group {
+    pub rods: Vec<RodSystem>,
+    pub bodies: Vec<usize>,
+    /// The system of them all, where joints tie them.
+    pub network: Option<Network>,
+}
+
+/// A rod's system.
+#[derive(Clone, Debug)]
+pub(super) struct RodSystem {
+    pub rod: usize,
+    /// Its first frame and its first element.
+    first: usize,
+    first_element: usize,
+    pub nodal: Nodal,
+    pub record: Record,
+}
+
+/// All that a group's residual depends on beside its frames.
+struct Given<'a> {
+    assembly: &'a Assembly,
+    ties: &'a Ties,
+    inertia: &'a [NodeInertia],
+    lengths: &'a [f64],
+    origin: Vec3,
+    lost: f64,
+    tolerance: f64,
+    level: SimdLevel,
+}
+
+impl RodSystem {
+    pub fn new(assembly: &Assembly, rod: usize) -> Self {
+        let (first, first_element) = (assembly.nodes(rod).start, assembly.elements(rod).start);
+        let mut record = Record::default();
+        record.fit(assembly.strands[rod].problem.rod.elements());
+        Self { rod, first, first_element, nodal: Nodal::default(), record }
+    }
+
+    fn take_motion(&mut self, given: &Given, stage: &mut Stage) {
+        let strand = &given.assembly.strands[self.rod];
+        let nodes = self.first..self.first + self.record.poses.len();
+        let moves = strand.drag != Default::default();
+        let resistance = Resistance {
+            lost: given.lost,
+            air: moves.then(|| (strand.drag, &given.lengths[nodes.clone()], given.assembly.wind)),
+        };
+        stage.take_inertia(nodes, given.inertia, &self.record.poses, given.origin, &resistance);
+        if strand.viscosity > 0.0 {
+            let elastic = strand.problem.rod.diagonal_points().unwrap_or_default();
+            let elements = self.first_element..self.first_element + elastic.len();
+            stage.take_viscosity(elements, self.first, elastic, strand.viscosity, &self.record.poses);
+        }
+    }
+
+    fn motion<'a>(&self, assembly: &'a Assembly, stage: &'a Stage) -> Motion<'a> {
+        let strand = &assembly.strands[self.rod];
+        let elastic = strand.problem.rod.diagonal_points().unwrap_or_default();
+        let viscous = &stage.points[self.first_element..self.first_element + elastic.len()];
+        let points = if strand.viscosity > 0.0 { viscous } else { elastic };
+        Motion { points, inertial: &stage.inertial[self.first..self.first + self.record.poses.len()] }
+    }
+}
+
+/// What is lent to the compliance against shifts, over `L³/EI`, on the way to a solution: a rod that cannot stretch has none.
+fn lent(problem: &Problem, of_rate: f64) -> f64 {
+    let (rod, scale) = (&problem.rod, problem.rod.scale());
+    if rod.kinematics() == Kinematics::Cosserat {
+        return 0.0;
+    }
+    let inertia = rod.mass() * scale.length / scale.force / (of_rate * of_rate);
+    rigid_compliance(1.0 + problem.load_size() + inertia)
+}
+
+/// The residual that round-off of the frames leaves: places and turns are known to so much, and rates of rates are that over the time squared.
+fn round_off(problem: &Problem, poses: &[Pose], of_rate: f64) -> f64 {
+    let scale = problem.rod.scale();
+    let far = poses.iter().fold(0.0, |far: f64, pose| far.max(pose.position.max_abs()));
+    let of =
+        |node: &NodeInertia| (node.mass * far / scale.force).max(node.rotational.max_abs() / scale.moment);
+    let most = problem.rod.node_inertia().iter().map(of).fold(0.0, f64::max);
+    ROUND_OFF * f64::EPSILON * most / (of_rate * of_rate)
+}
+
+impl Group {
+    /// Takes the frames that all are guessed to have, and what the elements carry.
+    fn guess(&mut self, assembly: &Assembly, ties: &Ties, poses: &mut [Pose], state: &super::State) {
+        for system in &mut self.rods {
+            let nodes = system.first..system.first + system.record.poses.len();
+            for (node, support) in assembly.strands[system.rod].problem.supports() {
+                let pose = &mut poses[system.first + node];
+                *pose = meet(support, pose);
+            }
+            let elements = system.first_element..system.first_element + nodes.len() - 1;
+            system.record.wrenches.copy_from_slice(&state.wrenches[elements]);
+        }
+        self.meet(assembly, ties, poses);
+        for system in &mut self.rods {
+            let nodes = system.first..system.first + system.record.poses.len();
+            system.record.poses.copy_from_slice(&poses[nodes]);
+        }
+    }
+
+    /// Puts bodies where they are held, and together what is tied.
+    fn meet(&self, assembly: &Assembly, ties: &Ties, poses: &mut [Pose]) {
+        for body in &self.bodies {
+            let pose = &mut poses[assembly.first_body() + body];
+            if let Some(support) = &assembly.bodies[*body].support {
+                *pose = meet(support, pose);
+            }
+        }
+        if let Some(network) = &self.network {
+            for tie in network.ties() {
+                let tie = &ties.list[tie];
+                poses[tie.child] = tie.met(&poses[tie.parent], &poses[tie.child]);
+            }
+        }
+    }
+
+    /// Linearises the group about its frames; gives the residual.
+    fn linearise(&mut self, given: &Given, stage: &mut Stage, poses: &mut [Pose]) -> f64 {
+        let Given { assembly, level, .. } = *given;
+        for system in &mut self.rods {
+            system.take_motion(given, stage);
+        }
+        let Some(network) = &mut self.network else {
+            let [system] = &mut self.rods[..] else { return f64::NAN };
+            let problem = &assembly.strands[system.rod].problem;
+            let motion = system.motion(assembly, stage);
+            let lent = lent(problem, stage.of_rate);
+            let distance = system.nodal.linearise_moving(problem, level, lent, &motion, &mut system.record);
+            return distance.map_or(f64::NAN, |distance| distance.residual());
+        };
+        for system in &self.rods {
+            poses[system.first..system.first + system.record.poses.len()]
+                .copy_from_slice(&system.record.poses);
+        }
+        let origin = poses[network.frames()[0]].position;
+        let axes = network.axes(assembly, origin);
+        let mut slack = 0.0;
+        for system in &mut self.rods {
+            let problem = &assembly.strands[system.rod].problem;
+            let motion = system.motion(assembly, stage);
+            let lent = lent(problem, stage.of_rate);
+            let RodSystem { nodal, record, .. } = system;
+            let Some(distance) = nodal.linearise_in(axes, problem, level, lent, &motion, record) else {
+                return f64::NAN;
+            };
+            slack = larger(slack, distance.slack);
+        }
+        let resistance = Resistance { lost: given.lost, air: None };
+        for &body in &self.bodies {
+            let frame = assembly.first_body() + body;
+            let pose = poses[frame];
+            stage.take_inertia(frame..frame + 1, given.inertia, &[pose], given.origin, &resistance);
+            let NodeInertia { mass, .. } = given.inertia[frame];
+            let moved = f64::EPSILON * pose.position.max_abs() / (stage.of_rate * stage.of_rate);
+            let unsure = ROUND_OFF * mass * moved / given.tolerance;
+            network.add_body(&assembly.bodies[body], &pose, &stage.inertial[frame], unsure);
+        }
+        larger(
+            slack,
+            network.gather(assembly, given.ties, self.rods.iter().map(|system| &system.nodal), poses),
+        )
+    }
+
+    /// Solves for a step; `None` where a pivot vanishes.
+    fn solve(&mut self, level: SimdLevel) -> Option<usize> {
+        match &mut self.network {
+            Some(network) => network.solve(level, self.rods.iter_mut().map(|system| &mut system.nodal)),
+            None => self.rods[0].nodal.solve(level, 0.0),
+        }
+    }
+
+    /// Takes the step, but so little of it that no frame turns by more than a radian at once.
+    fn step(&mut self, assembly: &Assembly, ties: &Ties, level: SimdLevel, poses: &mut [Pose]) {
+        let rods = self.rods.iter().map(|system| system.nodal.step_size()).fold(0.0, larger);
+        let size = self.network.as_ref().map_or(rods, |network| larger(rods, network.step_size()));
+        let part = (1.0 / size).min(1.0);
+        for RodSystem { rod, first, nodal, record, .. } in &mut self.rods {
+            nodal.take(&assembly.strands[*rod].problem, level, part, record);
+            if self.network.is_some() {
+                poses[*first..*first + record.poses.len()].copy_from_slice(&record.poses);
+            }
+        }
+        let Some(network) = &self.network else { return };
+        for (at, body) in self.bodies.iter().enumerate() {
+            let pose = &mut poses[assembly.first_body() + body];
+            *pose = network.taken(at, part, pose);
+        }
+        self.meet(assembly, ties, poses);
+        for RodSystem { first, record, .. } in &mut self.rods {
+            let nodes = *first..*first + record.poses.len();
+            record.poses.copy_from_slice(&poses[nodes]);
+        }
+    }
+}
+
+impl Group {
+    /// What is left over of a frame of the group and what hangs from it: force, and moment about the world's origin.
+    pub fn left_over(&self, frame: usize, assembly: &Assembly) -> Option<Wrench> {
+        if let Some(network) = &self.network {
+            let at = network.frames().iter().position(|of| *of == frame)?;
+            return Some(network.left_over(at));
+        }
+        let system = &self.rods[0];
+        let nodes = assembly.nodes(system.rod);
+        nodes.contains(&frame).then(|| system.left_over(frame - nodes.start))
+    }
+
+    /// What is left over of frames that nothing holds goes into their momenta: then none is lost or made.
+    fn keep_left_over(&self, assembly: &Assembly, stage: &mut Stage, origin: Vec3) {
+        let times = stage.of_rate;
+        let mut keep = |frame: usize, left: Wrench| {
+            let about = Wrench::new(left.angular - origin.cross(left.linear), left.linear);
+            stage.momenta[frame] += about * times;
+        };
+        let held = |member| assembly.support(member).is_some_and(Support::holds_anything);
+        match &self.network {
+            Some(network) => {
+                for (at, _) in network.roots().filter(|(_, member)| !held(*member)) {
+                    keep(network.frames()[at], network.left_over(at));
+                }
+            }
+            None => {
+                let system = &self.rods[0];
+                let nodes = 0..system.record.poses.len();
+                for node in nodes.filter(|node| !held(Member::Node { rod: system.rod, node: *node })) {
+                    keep(system.first + node, system.left_over(node));
+                }
+            }
+        }
+    }
+}
+
+impl RodSystem {
+    fn left_over(&self, node: usize) -> Wrench {
+        let left = self.nodal.left_over(node);
+        let place = self.record.poses[node].position;
+        Wrench::new(left.angular + place.cross(left.linear), left.linear)
+    }
+}
+
+impl Simulation {
+    /// Solves the stage that has been set up, from the frames in `work.poses` on.
+    pub(super) fn solve_stage(&mut self) -> Result<Taken, StepFailure> {
+        let mut taken = Taken::default();
+        for group in 0..self.work.groups.len() {
+            taken.add(self.solve_group(group)?);
+        }
+        Ok(taken)
+    }
+
+    fn solve_group(&mut self, group: usize) -> Result<Taken, StepFailure> {
+        let Self { assembly, settings, state, origin, work } = self;
+        let group = &mut work.groups[group];
+        let (ties, stage, level) = (&work.ties, &mut work.stage, work.level);
+        group.guess(assembly, ties, &mut work.poses, state);
+        let floor = group.rods.iter().map(|system| {
+            round_off(&assembly.strands[system.rod].problem, &system.record.poses, stage.of_rate)
+        });
+        let given = Given {
+            assembly,
+            ties,
+            inertia: &work.inertia,
+            lengths: &work.lengths,
+            origin: *origin,
+            lost: settings.mass_damping,
+            tolerance: floor.fold(settings.tolerance, f64::max),
+            level,
+        };
+        work.history.clear();
+        let (time, step) = (state.time, work.step);
+        let singular = |history: &[f64]| StepFailure::Singular { time, step, history: history.to_vec() };
+        let mut iterations = 0;
+        let residual = loop {
+            let residual = group.linearise(&given, stage, &mut work.poses);
+            work.history.push(residual);
+            if !residual.is_finite() {
+                return Err(singular(&work.history));
+            }
+            let spent = iterations == settings.max_iterations;
+            let enough = if settings.bounded { spent } else { residual <= given.tolerance };
+            if enough {
+                break residual;
+            }
+            if spent {
+                return Err(StepFailure::NotConverged { time, step, history: work.history.clone() });
+            }
+            if group.solve(level).is_none() {
+                return Err(singular(&work.history));
+            }
+            group.step(assembly, ties, level, &mut work.poses);
+            iterations += 1;
+        };
+        for system in &group.rods {
+            let nodes = system.first..system.first + system.record.poses.len();
+            work.poses[nodes].copy_from_slice(&system.record.poses);
+        }
+        group.keep_left_over(assembly, stage, *origin);
+        Ok(Taken { iterations, residual })
+    }
+}

@@ -1,0 +1,67 @@
+//! Where an assembly is, and how it moves.
+
+use crate::assembly::Assembly;
+use crate::math::{Pose, Vec6, Wrench};
+
+/// An assembly at some time: all that its future depends on beside what is done to it.
+#[derive(Clone, Debug, PartialEq)]
+pub struct State {
+    /// The time, s.
+    pub time: f64,
+    /// The frames: of the nodes of the rods, rod by rod, and then of the bodies ([`Assembly::nodes`]).
+    pub poses: Vec<Pose>,
+    /// How they turn, in their own axes, rad/s, and shift in the world, m/s.
+    pub velocities: Vec<Vec6>,
+    /// Their momenta about the simulation's origin, world axes, N·m·s and N·s.
+    pub momenta: Vec<Wrench>,
+    /// The wrench that each element carries through its far node, in that node's frame, where a stage was solved last: rod by rod
+    /// ([`Assembly::elements`]).
+    pub wrenches: Vec<Wrench>,
+    /// What damping and drag have taken out since the start, J.
+    pub dissipated: f64,
+    /// What supports, hands and loads that follow have put in since the start, J.
+    pub worked: f64,
+    /// What the integrator looks back on.
+    pub past: Past,
+}
+
+/// What an integrator looks back on.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub enum Past {
+    /// Nothing.
+    #[default]
+    None,
+    /// The step before, for backward differences.
+    Before {
+        /// The frames.
+        poses: Vec<Pose>,
+        /// Their momenta.
+        momenta: Vec<Wrench>,
+    },
+    /// The rates now and their weighted means, for the generalised-α method: of the frames (in the axes of their velocities) and of the momenta.
+    Rates {
+        /// What acts on each frame.
+        momentum: Vec<Wrench>,
+        /// The mean velocities.
+        mean_velocity: Vec<Vec6>,
+        /// The mean rates of the momenta.
+        mean_momentum: Vec<Wrench>,
+    },
+}
+
+impl State {
+    /// At rest in some frames.
+    pub(super) fn at_rest(assembly: &Assembly, poses: Vec<Pose>) -> Self {
+        let frames = poses.len();
+        Self {
+            time: 0.0,
+            poses,
+            velocities: vec![Vec6::ZERO; frames],
+            momenta: vec![Wrench::ZERO; frames],
+            wrenches: vec![Wrench::ZERO; frames - assembly.bodies.len() - assembly.strands.len()],
+            dissipated: 0.0,
+            worked: 0.0,
+            past: Past::None,
+        }
+    }
+}

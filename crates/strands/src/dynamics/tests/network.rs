@@ -1,0 +1,279 @@
+//! Rods and bodies that joints tie together.
+
+use super::{ALL, G, rod, simulated, suture};
+use crate::assembly::{Assembly, Body, Joint, JointKind, Member, Strand, ball};
+use crate::dynamics::{Integrator, Settings, Simulation, SimulationError, Start};
+use crate::load::NodalLoads;
+use crate::math::{Mat3, Pose, Quat, Vec3, Vec6};
+use crate::rod::{Kinematics, Material, NodeInertia, Order, Profile, Rod, RodDescription, Section, Station};
+use crate::statics::{Problem, Support};
+
+/// A rod of the suture's stuff between two places, straight, under gravity and free.
+fn free_rod(from: Vec3, to: Vec3, elements: usize) -> Strand {
+    let along = to - from;
+    let third = along * (1.0 / along.norm());
+    let first = third.any_orthonormal();
+    let rotation = Mat3::from_cols(first, third.cross(first), third);
+    let material = Material::from_poisson(750e6, 0.4, 1300.0).unwrap();
+    let description = RodDescription {
+        length: along.norm(),
+        kinematics: Kinematics::Cosserat,
+        profile: Profile::Stations(vec![Station {
+            s: 0.0,
+            section: Section::Circle { radius: 0.2e-3 },
+            material,
+        }]),
+        rest: Default::default(),
+        base: Pose { rotation, position: from },
+    };
+    let rod = Rod::with_elements(description, elements, &[], Order::Second).unwrap();
+    let loads = NodalLoads::none(&rod).with_gravity(&rod, G);
+    Problem { loads, start: Support::free(Pose { rotation, position: from }), ..Problem::cantilever(rod) }
+        .into()
+}
+
+fn clamped(mut strand: Strand) -> Strand {
+    strand.problem.start = Support::clamped(strand.problem.rod.description().base);
+    strand
+}
+
+fn node(rod: usize, node: usize) -> Member {
+    Member::Node { rod, node }
+}
+
+fn tie(assembly: &mut Assembly, kind: JointKind, a: Member, b: Member, axis: Vec3) {
+    let joint = Joint::at_rest(assembly, kind, [a, b], None, axis).unwrap();
+    assembly.joints.push(joint);
+}
+
+#[test]
+fn two_halves_joined_rigidly_move_as_the_whole() {
+    let middle = Vec3::new(0.0, 0.0, 0.05);
+    let end = Vec3::new(0.0, 0.0, 0.1);
+    for (integrator, within) in [(Integrator::Sdirk4, 1e-9), (Integrator::Bdf2, 1e-9)] {
+        let whole = clamped(free_rod(Vec3::ZERO, end, 20));
+        let mut one = simulated(whole.problem, integrator, 1e-3, Start::Rest);
+        let mut halves = Assembly {
+            strands: vec![clamped(free_rod(Vec3::ZERO, middle, 10)), free_rod(middle, end, 10)],
+            ..Assembly::default()
+        };
+        tie(&mut halves, JointKind::Rigid, node(0, 10), node(1, 0), Vec3::ZERO);
+        let settings = Settings { integrator, time_step: 1e-3, ..Settings::default() };
+        let mut two = Simulation::new(halves, settings, Start::Rest).unwrap();
+        let mut iterations = [0, 0];
+        for _ in 0..50 {
+            iterations[0] += one.step().unwrap().iterations;
+            iterations[1] += two.step().unwrap().iterations;
+        }
+        assert!(one.state().poses[20].position.x > 0.01);
+        for (i, pose) in one.state().poses.iter().enumerate() {
+            let other = two.state().poses[if i <= 10 { i } else { i + 1 }];
+            let apart = (pose.position - other.position).norm();
+            assert!(apart < within, "{}: node {i} is {apart:e} off", integrator.name());
+        }
+        let [one, two] = iterations;
+        assert!(two <= one + 10, "{two} iterations where the whole takes {one}");
+    }
+}
+
+/// A handful of rods and a body, tied by joints of all kinds.
+fn mobile() -> Assembly {
+    let (a, b, c) = (Vec3::new(0.0, 0.0, 0.05), Vec3::new(0.03, 0.0, 0.08), Vec3::new(-0.03, 0.01, 0.08));
+    let d = Vec3::new(0.05, 0.0, 0.05);
+    let mut assembly = Assembly {
+        strands: vec![free_rod(Vec3::ZERO, a, 6), free_rod(a, b, 5), free_rod(a, c, 4), free_rod(b, d, 5)],
+        ..Assembly::default()
+    };
+    let turned = Quat::from_rotation_vector(Vec3::new(0.3, -0.4, 0.2)).to_matrix();
+    let place = Pose { rotation: turned, position: d + Vec3::new(0.004, 0.001, -0.003) };
+    let inertia = NodeInertia { mass: 4e-5, rotational: Vec3::new(3e-10, 2e-10, 4e-10) };
+    assembly.bodies.push(Body::new(inertia, place).with_gravity(G));
+    tie(&mut assembly, JointKind::Rigid, node(0, 6), node(1, 0), Vec3::ZERO);
+    tie(&mut assembly, JointKind::Ball, node(0, 6), node(2, 0), Vec3::ZERO);
+    tie(&mut assembly, JointKind::Hinge, node(1, 5), node(3, 0), Vec3::Y);
+    tie(&mut assembly, JointKind::Ball, node(3, 5), Member::Body(0), Vec3::ZERO);
+    assembly
+}
+
+fn tumbling(assembly: &Assembly) -> Vec<Vec6> {
+    let spin = Vec3::new(4.0, -7.0, 5.0);
+    let poses = assembly.rest_poses();
+    let of = |pose: &Pose| {
+        Vec6::new(pose.rotation.transpose_mul(spin), Vec3::new(0.1, 0.2, -0.3) + spin.cross(pose.position))
+    };
+    poses.iter().map(of).collect()
+}
+
+#[test]
+fn what_joints_tie_keeps_its_momentum_in_free_flight() {
+    let mut weightless = mobile();
+    for strand in &mut weightless.strands {
+        strand.problem.loads = NodalLoads::none(&strand.problem.rod);
+    }
+    weightless.bodies[0].load = crate::math::Wrench::ZERO;
+    for integrator in ALL {
+        let settings = Settings { integrator, time_step: 5e-4, ..Settings::default() };
+        let mut simulation = Simulation::new(weightless.clone(), settings, Start::Rest).unwrap();
+        simulation.set_velocities(&tumbling(&weightless));
+        let (momentum, angular) = simulation.momentum();
+        for step in 0..400 {
+            let taken = simulation.step();
+            assert!(taken.is_ok(), "{} step {step}: {taken:?}", integrator.name());
+        }
+        let (later, turned) = simulation.momentum();
+        let lost = (later - momentum).norm() / momentum.norm();
+        let lost_angular = (turned - angular).norm() / angular.norm();
+        assert!(lost < 1e-10 && lost_angular < 1e-9, "{}: {lost:e} {lost_angular:e}", integrator.name());
+    }
+}
+
+#[test]
+fn newton_is_quadratic_through_joints_of_all_kinds() {
+    let mut held = mobile();
+    held.strands[0] = clamped(held.strands[0].clone());
+    let settings = Settings { integrator: Integrator::Sdirk4, time_step: 2e-3, ..Settings::default() };
+    let mut simulation = Simulation::new(held, settings, Start::Rest).unwrap();
+    for _ in 0..50 {
+        simulation.step().unwrap();
+        let history = &simulation.work.history;
+        for three in history.windows(3) {
+            let [a, b, c] = [three[0], three[1], three[2]];
+            // Where the residual has begun to fall, its fall doubles.
+            if b < 1e-2 * a && b > 1e-7 {
+                assert!(c < b.sqrt() * b * 10.0, "{history:?}");
+            }
+        }
+    }
+}
+
+#[test]
+fn a_ball_on_a_hinge_swings_as_a_pendulum() {
+    // A short stiff rod, hinged, with a ball at its end.
+    let steel = Material::from_poisson(200e9, 0.3, 8000.0).unwrap();
+    let rod = rod(0.1, 1e-3, steel, Kinematics::Cosserat, 8);
+    let mass_of_rod = rod.mass();
+    let loads = NodalLoads::none(&rod).with_gravity(&rod, Vec3::Z * 9.81);
+    let base = rod.description().base;
+    let start = Support::clamped(base).turning_about(Vec3::Y);
+    let problem = Problem { loads, start, ..Problem::cantilever(rod) };
+    let weight = ball(8000.0, 0.01);
+    let mut assembly = Assembly::from(problem);
+    let place = Pose { position: Vec3::new(0.0, 0.0, 0.11), ..Pose::IDENTITY };
+    assembly.bodies.push(Body::new(weight, place).with_gravity(Vec3::Z * 9.81));
+    tie(&mut assembly, JointKind::Rigid, node(0, 8), Member::Body(0), Vec3::ZERO);
+    let inertia = weight.rotational.x + weight.mass * 0.11 * 0.11 + mass_of_rod * 0.01 / 3.0;
+    let moment = 9.81 * (weight.mass * 0.11 + mass_of_rod * 0.05);
+    let expected = 2.0 * core::f64::consts::PI * (inertia / moment).sqrt();
+    let settings =
+        Settings { integrator: Integrator::Bdf2, time_step: expected / 400.0, ..Settings::default() };
+    let mut simulation = Simulation::new(assembly, settings, Start::Rest).unwrap();
+    let nudge = Vec3::Y * 0.05;
+    let velocities: Vec<Vec6> =
+        (simulation.state().poses.iter()).map(|pose| Vec6::new(nudge, nudge.cross(pose.position))).collect();
+    simulation.set_velocities(&velocities);
+    let (mut crossings, mut last) = (Vec::new(), 0.0);
+    while crossings.len() < 5 {
+        let time = simulation.step().unwrap().time;
+        let x = simulation.state().poses[9].position.x;
+        if x * last < 0.0 {
+            crossings.push(time - settings.time_step * x / (x - last));
+        }
+        last = x;
+    }
+    let measured = (crossings[4] - crossings[0]) / 2.0;
+    assert!((measured / expected - 1.0).abs() < 1e-3, "{measured} s, {expected} expected");
+}
+
+/// A net of rods along x and y, tied where they cross, held at its corners.
+fn net(across: usize, elements: usize) -> Assembly {
+    let pitch = 0.02;
+    let mut assembly = Assembly::default();
+    let far = pitch * (across - 1) as f64;
+    let each = elements / (across - 1);
+    for i in 0..across {
+        let at = pitch * i as f64;
+        assembly.strands.push(free_rod(Vec3::new(0.0, at, 0.0), Vec3::new(far, at, 0.0), elements));
+    }
+    for i in 0..across {
+        let at = pitch * i as f64;
+        assembly.strands.push(free_rod(Vec3::new(at, 0.0, 0.0), Vec3::new(at, far, 0.0), elements));
+    }
+    for strand in &mut assembly.strands {
+        let rod = &strand.problem.rod;
+        strand.problem.loads = NodalLoads::none(rod).with_gravity(rod, Vec3::new(0.0, 0.0, -9.81));
+    }
+    for i in 0..across {
+        for j in 0..across {
+            tie(&mut assembly, JointKind::Ball, node(i, j * each), node(across + j, i * each), Vec3::ZERO);
+        }
+    }
+    for (rod, end) in [(0, 0), (0, elements), (across - 1, 0), (across - 1, elements)] {
+        let rest = assembly.strands[rod].problem.rod.rest_poses()[end];
+        *assembly.strands[rod].problem.support_mut(end).unwrap() = Support::pinned(rest);
+    }
+    assembly
+}
+
+#[test]
+fn a_net_hangs_in_equilibrium_and_stays_there() {
+    let net = net(5, 8);
+    let settings = Settings { integrator: Integrator::Bdf2, ..Settings::default() };
+    let weight: f64 = net.strands.iter().map(|strand| strand.problem.rod.mass() * 9.81).sum();
+    let mut simulation = Simulation::new(net, settings, Start::Equilibrium).unwrap();
+    let began = simulation.state().poses.clone();
+    let lowest = began.iter().map(|pose| pose.position.z).fold(0.0, f64::min);
+    assert!(lowest < -0.001, "it sags: {lowest}");
+    for _ in 0..50 {
+        simulation.step().unwrap();
+    }
+    for (now, then) in simulation.state().poses.iter().zip(&began) {
+        assert!((now.position - then.position).norm() < 1e-8, "{now:?} {then:?}");
+    }
+    let corners = [(0, 0), (0, 8), (4, 0), (4, 8)];
+    let held = corners.iter().map(|(rod, end)| simulation.reaction(node(*rod, *end)).linear);
+    let held = held.fold(Vec3::ZERO, |sum, force| sum + force);
+    assert!((held - Vec3::Z * weight).norm() < 1e-9 * weight, "{held:?}, {weight} expected");
+}
+
+#[test]
+fn joints_that_cannot_be_are_refused() {
+    let refused = |assembly: Assembly| match Simulation::new(assembly, Settings::default(), Start::Rest) {
+        Err(SimulationError::Assembly(error)) => error.to_string(),
+        other => panic!("{:?}", other.map(|_| ())),
+    };
+    let mut twice = mobile();
+    for rod in [1, 2] {
+        let start = twice.strands[rod].problem.rod.rest_poses()[0];
+        twice.strands[rod].problem.start = Support::pinned(start);
+    }
+    assert!(refused(twice).contains("ties together two places that are both held"));
+    let mut ring = mobile();
+    tie(&mut ring, JointKind::Ball, node(1, 0), node(2, 0), Vec3::ZERO);
+    assert!(refused(ring).contains("joint 4 closes a ring of joints alone"));
+    let apart = Joint::at_rest(&mobile(), JointKind::Rigid, [node(0, 0), node(1, 0)], None, Vec3::ZERO);
+    assert!(apart.unwrap_err().to_string().contains("joint 4 ties together is 5.00e-2 m"));
+}
+
+#[test]
+fn a_free_ring_keeps_its_shape() {
+    // A rod that closes on itself by a joint of its ends.
+    let around = suture(20);
+    let radius = 0.1 / (2.0 * core::f64::consts::PI);
+    let description = RodDescription {
+        rest: crate::rod::RestShape::Constant(Vec3::new(0.0, 1.0 / radius, 0.0)),
+        ..around.description().clone()
+    };
+    let ring = Rod::with_elements(description, 20, &[], Order::Second).unwrap();
+    let base = ring.description().base;
+    let problem = Problem { start: Support::free(base), ..Problem::cantilever(ring) };
+    let mut assembly = Assembly::from(problem);
+    tie(&mut assembly, JointKind::Rigid, node(0, 0), node(0, 20), Vec3::ZERO);
+    let settings = Settings::default();
+    let mut simulation = Simulation::new(assembly, settings, Start::Rest).unwrap();
+    for _ in 0..20 {
+        simulation.step().unwrap();
+    }
+    let state = simulation.state();
+    assert!((state.poses[0].position - state.poses[20].position).norm() < 1e-12);
+    assert!((state.poses[10].position - state.poses[0].position).norm() - 2.0 * radius < 1e-6);
+}

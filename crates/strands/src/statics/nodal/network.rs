@@ -1,0 +1,637 @@
+//! The linear system of rods and bodies that joints tie together.
+//!
+//! Seen from fixed axes, frames that are tied rigidly have one and the same variation, and one that hangs by a ball joint or a hinge has that of its
+//! parent and a turn about the joint of its own: `η = η_parent + S r`. So every frame's variation is a sum over few unknowns, `η = Σ T x`, and the
+//! blocks of the rods' own systems go, as `Tᵀ K T`, into one sparse system of blocks of six. It is eliminated in an order in which each unknown has as few neighbours as
+//! possible when it is its turn (minimum degree): a tree from its leaves inwards, without a block more than it has.
+
+use super::elimination::{
+    Square, add, on_far, pair, parts, product, subtract, subtract_dead_moment_slope, transposed,
+};
+use super::{Axes, Inertial, Nodal, along_screw, grip_acts, out_of_balance};
+use crate::assembly::{Assembly, Body, Member, Ties};
+use crate::math::{Kernel, Pose, SimdLevel, Vec3, Vec6, Wrench, dispatch, larger};
+use crate::statics::Support;
+use crate::statics::boundary::{displacements, displacements_slope};
+use core::ops::Range;
+use std::collections::BTreeSet;
+
+/// A pivot below this part of its block's diagonal is none.
+const SMALLEST_PIVOT: f64 = 1e-15;
+const NONE: Square<f64> = [[0.0; 6]; 6];
+const IDENTITY: Square<f64> = {
+    let mut identity = NONE;
+    let mut k = 0;
+    while k < 6 {
+        identity[k][k] = 1.0;
+        k += 1;
+    }
+    identity
+};
+
+/// Where a body is, and what acts on it beside joints, in the network's axes; what the rods' [`Nodal`] is for their nodes.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct FreeFrame {
+    place: Vec3,
+    load: Wrench,
+    slope: Square<f64>,
+    unsure: f64,
+}
+
+/// A part of a frame's variation: an unknown, and the motions (its columns) that it stands for.
+#[derive(Clone, Copy, Debug)]
+struct Term {
+    unknown: usize,
+    motions: Square<f64>,
+    /// Whether the motions are the frame's own variation.
+    whole: bool,
+}
+
+/// The system.
+#[derive(Clone, Debug, Default)]
+pub(crate) struct Network {
+    axes: Axes,
+    /// The rods in it, and the number (in the network) of each one's first frame.
+    rods: Vec<(usize, usize)>,
+    bodies: Vec<usize>,
+    first_body: usize,
+    /// The numbers that the assembly has for the network's frames, and what they are.
+    frames: Vec<usize>,
+    members: Vec<Member>,
+    /// The frames' terms: of a frame without joints one of its own.
+    terms: Vec<Term>,
+    terms_of: Vec<Range<usize>>,
+    /// For frames that hang from others, roots first: number, parent, tie.
+    hanging: Vec<(usize, usize, usize)>,
+    /// Of each frame, where it is in that list.
+    hangs: Vec<Option<usize>>,
+    structure: Structure,
+    diagonal: Vec<Square<f64>>,
+    upper: Vec<Square<f64>>,
+    lower: Vec<Square<f64>>,
+    right: Vec<[f64; 6]>,
+    /// What each frame is out of balance by, with all that hangs from it.
+    borne: Vec<Wrench>,
+    /// Where each unknown's moments are about, what is out of balance along it, and beside what that is small.
+    abouts: Vec<Vec3>,
+    imbalance: Vec<[f64; 6]>,
+    scale: Vec<f64>,
+    pub free: Vec<FreeFrame>,
+    pub free_steps: Vec<Vec6>,
+}
+
+/// Which unknown follows from which.
+#[derive(Clone, Debug, Default)]
+struct Structure {
+    /// The unknowns after each that stand in its equations when it is its turn, and the number of the block.
+    after: Vec<Vec<(usize, usize)>>,
+    /// For each unknown and each two of those, where their block is: the number of the first row's block against the second's column.
+    pairs: Vec<Vec<(usize, usize, usize)>>,
+}
+
+impl Structure {
+    /// From the pairs of unknowns that stand in each other's equations. Gives also the place of each unknown in the order.
+    fn new(unknowns: usize, edges: &BTreeSet<(usize, usize)>) -> (Self, Vec<usize>) {
+        let mut beside = vec![BTreeSet::new(); unknowns];
+        for &(a, b) in edges {
+            beside[a].insert(b);
+            beside[b].insert(a);
+        }
+        let mut waiting: BTreeSet<(usize, usize)> =
+            beside.iter().enumerate().map(|(unknown, beside)| (beside.len(), unknown)).collect();
+        let (mut order, mut after) = (Vec::with_capacity(unknowns), Vec::with_capacity(unknowns));
+        while let Some((_, unknown)) = waiting.pop_first() {
+            let left: Vec<usize> = core::mem::take(&mut beside[unknown]).into_iter().collect();
+            for &a in &left {
+                waiting.remove(&(beside[a].len(), a));
+                beside[a].remove(&unknown);
+                beside[a].extend(left.iter().filter(|b| **b != a));
+                waiting.insert((beside[a].len(), a));
+            }
+            order.push(unknown);
+            after.push(left);
+        }
+        let mut place = vec![0; unknowns];
+        order.iter().enumerate().for_each(|(i, unknown)| place[*unknown] = i);
+        let mut blocks = 0;
+        let after: Vec<Vec<(usize, usize)>> = after
+            .iter()
+            .map(|after| {
+                let mut after: Vec<usize> = after.iter().map(|unknown| place[*unknown]).collect();
+                after.sort_unstable();
+                let numbered =
+                    after.into_iter().enumerate().map(|(k, at)| (at, blocks + k)).collect::<Vec<_>>();
+                blocks += numbered.len();
+                numbered
+            })
+            .collect();
+        let mut structure = Self { after, pairs: Vec::new() };
+        structure.pairs = (structure.after.iter())
+            .map(|after| {
+                let mut pairs = Vec::with_capacity(after.len() * after.len());
+                for (i, (row, _)) in after.iter().enumerate() {
+                    for (j, (column, _)) in after.iter().enumerate().filter(|(j, _)| *j != i) {
+                        pairs.push((i, j, structure.block(*row.min(column), *row.max(column))));
+                    }
+                }
+                pairs
+            })
+            .collect();
+        (structure, place)
+    }
+
+    /// The number of the block of two unknowns.
+    fn block(&self, first: usize, second: usize) -> usize {
+        let after = &self.after[first];
+        let at = after.binary_search_by_key(&second, |(at, _)| *at);
+        after[at.unwrap_or_else(|_| unreachable!("every pair that is added was foreseen"))].1
+    }
+
+    fn blocks(&self) -> usize {
+        self.after.iter().map(Vec::len).sum()
+    }
+}
+
+impl Network {
+    /// The system of some rods and bodies of an assembly, of all that they are tied to.
+    pub fn new(assembly: &Assembly, ties: &Ties, rods: &[usize], bodies: &[usize]) -> Self {
+        let mut network = Self::default();
+        for &rod in rods {
+            network.rods.push((rod, network.frames.len()));
+            network.frames.extend(assembly.nodes(rod));
+        }
+        network.first_body = network.frames.len();
+        network.bodies = bodies.to_vec();
+        network.frames.extend(bodies.iter().map(|body| assembly.first_body() + body));
+        let mut number = vec![usize::MAX; assembly.frames()];
+        network.frames.iter().enumerate().for_each(|(i, frame)| number[*frame] = i);
+        network.members = network.frames.iter().map(|frame| assembly.member(*frame)).collect();
+        network.hangs = vec![None; network.frames.len()];
+        // The unknowns of each frame: its parent's, and one of its own where it has a freedom.
+        let mut unknowns = 0;
+        let mut of: Vec<Vec<usize>> = vec![Vec::new(); network.frames.len()];
+        for (i, frame) in network.frames.iter().enumerate() {
+            if ties.above[*frame].is_none() {
+                of[i] = vec![unknowns];
+                unknowns += 1;
+            }
+        }
+        for (t, tie) in ties.list.iter().enumerate() {
+            let (child, parent) = (number[tie.child], number[tie.parent]);
+            if child == usize::MAX {
+                continue;
+            }
+            network.hangs[child] = Some(network.hanging.len());
+            network.hanging.push((child, parent, t));
+            of[child] = of[parent].clone();
+            if !tie.kind.free_turns().is_empty() {
+                of[child].push(unknowns);
+                unknowns += 1;
+            }
+        }
+        let mut edges = BTreeSet::new();
+        let mut join = |a: &[usize], b: &[usize]| {
+            for (a, b) in a.iter().flat_map(|a| b.iter().map(move |b| (*a, *b))) {
+                if a != b {
+                    edges.insert((a.min(b), a.max(b)));
+                }
+            }
+        };
+        for (i, own) in of.iter().enumerate() {
+            join(own, own);
+            let is_last = network.rods.iter().any(|(_, first)| *first == i + 1);
+            if i + 1 < network.first_body && !is_last {
+                join(own, &of[i + 1]);
+            }
+        }
+        let (structure, place) = Structure::new(unknowns, &edges);
+        for own in &of {
+            let first = network.terms.len();
+            let term = |at: &usize| Term { unknown: place[*at], motions: IDENTITY, whole: true };
+            network.terms.extend(own.iter().map(term));
+            network.terms_of.push(first..network.terms.len());
+        }
+        network.diagonal = vec![NONE; unknowns];
+        network.right = vec![[0.0; 6]; unknowns];
+        network.upper = vec![NONE; structure.blocks()];
+        network.lower = vec![NONE; structure.blocks()];
+        network.structure = structure;
+        network
+    }
+
+    /// The axes in which all its rods are to be linearised.
+    pub fn axes(&mut self, assembly: &Assembly, origin: Vec3) -> Axes {
+        let rod = self.rods.first().map(|(rod, _)| assembly.strands[*rod].problem.rod.scale());
+        self.axes = match rod {
+            Some(scale) => Axes { origin, length: scale.length, force: scale.force, moment: scale.moment },
+            None => Axes { origin, ..Axes::default() },
+        };
+        self.free.clear();
+        self.axes
+    }
+
+    /// Takes what acts on the next body. Of the forces on it so much (N) is not known for round-off, which is to be within the tolerance.
+    pub fn add_body(&mut self, body: &Body, pose: &Pose, inertial: &Inertial, unsure: f64) {
+        let (axes, at) = (self.axes, self.axes.at(pose.position));
+        let acts = axes.wrench(body.load + inertial.exerts);
+        let mut load = Wrench::new(acts.angular + at.cross(acts.linear), acts.linear);
+        let mut slope = inertial.slope(at, &axes);
+        if let Some(grip) = body.support.as_ref().and_then(|support| support.grip.as_ref()) {
+            let (wrench, by_frame) = grip_acts(grip, pose, at, &axes);
+            load += wrench;
+            slope = slope.add(&by_frame);
+        }
+        self.free.push(FreeFrame { place: at, load, slope: slope.to_rows(), unsure: unsure / axes.force });
+    }
+
+    /// Puts the rods' systems and the bodies' together. Gives the largest force (over `EI/L²`) and moment (over `EI/L`) by which an unknown is out of
+    /// balance, over the largest wrench that its rod carries where that is larger.
+    pub fn gather<'a>(
+        &mut self,
+        assembly: &Assembly,
+        ties: &Ties,
+        nodals: impl Iterator<Item = &'a Nodal> + Clone,
+        poses: &[Pose],
+    ) -> f64 {
+        for blocks in [&mut self.diagonal, &mut self.upper, &mut self.lower] {
+            blocks.fill(NONE);
+        }
+        self.right.fill([0.0; 6]);
+        self.weigh(nodals.clone());
+        self.take_motions(assembly, ties, poses);
+        for (at, nodal) in nodals.enumerate() {
+            self.add_rod(assembly, at, nodal);
+        }
+        for body in 0..self.bodies.len() {
+            let frame = self.first_body + body;
+            let FreeFrame { place, load, slope, unsure } = self.free[body];
+            let mut block = NONE;
+            subtract_dead_moment_slope(&mut block, place, load.linear);
+            subtract(&mut block, &slope);
+            self.add_block(frame, frame, &block);
+            self.add_right(frame, load);
+            self.weigh_unknowns(frame, load, unsure);
+        }
+        self.hold(assembly, poses);
+        let out = |(imbalance, scale): (&[f64; 6], &f64)| {
+            imbalance.iter().fold(0.0, |most, x: &f64| larger(most, x.abs())) / scale
+        };
+        self.imbalance.iter().zip(&self.scale).map(out).fold(0.0, larger)
+    }
+
+    fn add_rod(&mut self, assembly: &Assembly, at: usize, nodal: &Nodal) {
+        let (rod, first) = self.rods[at];
+        let mut slopes = nodal.load_slopes.iter().peekable();
+        for node in 0..=nodal.links.len() {
+            let frame = first + node;
+            let mut block = NONE;
+            subtract_dead_moment_slope(&mut block, nodal.places[node], nodal.loads[node].linear);
+            if let Some(after) = nodal.links.get(node) {
+                add(&mut block, &after.stiffness);
+                self.add_block(frame, frame + 1, &negative(&on_far(after)));
+                self.add_block(frame + 1, frame, &negative(&after.stiffness));
+            }
+            if node > 0 {
+                add(&mut block, &on_far(&nodal.links[node - 1]));
+            }
+            while let Some((_, slope)) = slopes.next_if(|(at, _)| *at == node) {
+                subtract(&mut block, slope);
+            }
+            self.add_block(frame, frame, &block);
+            self.add_right(frame, nodal.acting(node));
+        }
+        // In the rod's own units: a thick trunk's round-off is not a twig's imbalance.
+        let own = assembly.strands[rod].problem.rod.scale().force / self.axes.force;
+        let carried = nodal.links.iter().fold(own, |max: f64, link| max.max(link.carried.max_abs()));
+        for node in 0..=nodal.links.len() {
+            self.weigh_unknowns(first + node, nodal.imbalance(node), carried);
+        }
+    }
+
+    /// By what each frame is out of balance with all that hangs from it.
+    fn weigh<'a>(&mut self, nodals: impl Iterator<Item = &'a Nodal>) {
+        self.borne.clear();
+        for nodal in nodals {
+            self.borne.extend((0..=nodal.links.len()).map(|node| nodal.imbalance(node)));
+        }
+        self.borne.extend(self.free.iter().map(|body| body.load));
+        for &(child, parent, _) in self.hanging.iter().rev() {
+            let hangs = self.borne[child];
+            self.borne[parent] += hangs;
+        }
+    }
+
+    /// The motions that the unknowns stand for.
+    fn take_motions(&mut self, assembly: &Assembly, ties: &Ties, poses: &[Pose]) {
+        self.abouts.resize(self.right.len(), Vec3::ZERO);
+        self.imbalance.clear();
+        self.imbalance.resize(self.right.len(), [0.0; 6]);
+        self.scale.clear();
+        self.scale.resize(self.right.len(), f64::MIN_POSITIVE);
+        for i in (0..self.frames.len()).filter(|i| self.hangs[*i].is_none()) {
+            let term = &mut self.terms[self.terms_of[i].start];
+            let pose = self.axes.frame(&poses[self.frames[i]]);
+            self.abouts[term.unknown] = pose.position;
+            let support = held(assembly, self.members[i]);
+            term.whole = support.is_none();
+            term.motions = support.map_or(IDENTITY, |support| displacements(support, &pose).to_rows());
+        }
+        for &(child, parent, tie) in &self.hanging {
+            let (from, to) = (self.terms_of[parent].clone(), self.terms_of[child].clone());
+            for (from, to) in from.clone().zip(to.clone()) {
+                self.terms[to] = self.terms[from];
+            }
+            if to.len() > from.len() {
+                let tie = &ties.list[tie];
+                let at = self.axes.frame(&tie.place(&poses[tie.parent]));
+                let mut rows = NONE;
+                for (row, k) in rows.iter_mut().zip(tie.kind.free_turns()) {
+                    let axis = at.rotation.cols[k];
+                    *row = parts(Vec6::new(axis, at.position.cross(axis)));
+                }
+                let term = &mut self.terms[to.end - 1];
+                (term.motions, term.whole) = (transposed(&rows), false);
+            }
+        }
+    }
+
+    /// Adds `Tᵀ K T`, where `K` says how what acts on one frame resists the variation of another.
+    fn add_block(&mut self, row: usize, column: usize, block: &Square<f64>) {
+        let (rows, columns) = (self.terms_of[row].clone(), self.terms_of[column].clone());
+        for r in rows {
+            for c in columns.clone() {
+                let (row, column) = (self.terms[r], self.terms[c]);
+                let right = if column.whole { *block } else { product(block, &column.motions) };
+                let whole = if row.whole { right } else { product(&transposed(&row.motions), &right) };
+                add(self.block_mut(row.unknown, column.unknown), &whole);
+            }
+        }
+    }
+
+    fn block_mut(&mut self, row: usize, column: usize) -> &mut Square<f64> {
+        match row.cmp(&column) {
+            core::cmp::Ordering::Equal => &mut self.diagonal[row],
+            core::cmp::Ordering::Less => &mut self.upper[self.structure.block(row, column)],
+            core::cmp::Ordering::Greater => &mut self.lower[self.structure.block(column, row)],
+        }
+    }
+
+    fn add_right(&mut self, frame: usize, acts: Wrench) {
+        let acts = parts(acts);
+        for term in self.terms_of[frame].clone() {
+            let Term { unknown, motions, .. } = self.terms[term];
+            for (acts, motions) in acts.iter().zip(&motions) {
+                for (right, motion) in self.right[unknown].iter_mut().zip(motions) {
+                    *right += motion * acts;
+                }
+            }
+        }
+    }
+
+    /// Adds what a frame is out of balance by to that of its unknowns.
+    fn weigh_unknowns(&mut self, frame: usize, acts: Wrench, carried: f64) {
+        for Term { unknown, motions, whole } in &self.terms[self.terms_of[frame].clone()] {
+            let of = &mut self.imbalance[*unknown];
+            self.scale[*unknown] = self.scale[*unknown].max(carried);
+            if *whole {
+                let about = parts(out_of_balance(acts, self.abouts[*unknown], None));
+                of.iter_mut().zip(about).for_each(|(of, acts)| *of += acts);
+            } else {
+                for (acts, motions) in parts(acts).iter().zip(motions) {
+                    of.iter_mut().zip(motions).for_each(|(of, motion)| *of += motion * acts);
+                }
+            }
+        }
+    }
+
+    /// What holds frames: what is fixed has no equation, and free motions turn with what they are of.
+    fn hold(&mut self, assembly: &Assembly, poses: &[Pose]) {
+        for i in 0..self.frames.len() {
+            let range = self.terms_of[i].clone();
+            let own = self.terms[range.end - 1];
+            if let Some(at) = self.hangs[i] {
+                let parent = self.hanging[at].1;
+                if self.terms_of[parent].len() < range.len() {
+                    self.follow_parent(i, parent, &own);
+                }
+                continue;
+            }
+            let Some(support) = held(assembly, self.members[i]) else { continue };
+            let pose = self.axes.frame(&poses[self.frames[i]]);
+            let curved = displacements_slope(support, &pose, self.borne[i]).to_rows();
+            let block = &mut self.diagonal[own.unknown];
+            add(block, &curved);
+            for (k, fixed) in support.fixed.iter().enumerate() {
+                block[k][k] += f64::from(*fixed);
+            }
+        }
+    }
+
+    /// A joint's free motions go with the parent: how the work on them changes as they do. The rows that they leave have no equation.
+    fn follow_parent(&mut self, child: usize, parent: usize, own: &Term) {
+        let borne = self.borne[child];
+        let motions = transposed(&own.motions);
+        let mut slope = NONE;
+        for (k, row) in slope.iter_mut().enumerate() {
+            let motion = Vec6::from(motions[k]);
+            if motion == Vec6::ZERO {
+                self.diagonal[own.unknown][k][k] += 1.0;
+                continue;
+            }
+            let by_turn = motion.angular.cross(borne.angular) + motion.linear.cross(borne.linear);
+            *row = parts(Vec6::new(-by_turn, -motion.angular.cross(borne.linear)));
+        }
+        for term in self.terms_of[parent].clone() {
+            let Term { unknown, motions, .. } = self.terms[term];
+            let block = product(&slope, &motions);
+            add(self.block_mut(own.unknown, unknown), &block);
+        }
+    }
+
+    /// Solves, and gives the rods and bodies their steps; and how many pivots are negative, or `None` where one vanishes.
+    pub fn solve<'a>(
+        &mut self,
+        level: SimdLevel,
+        nodals: impl Iterator<Item = &'a mut Nodal>,
+    ) -> Option<usize> {
+        let (negative, vanished) = dispatch(level, EliminateNetwork { network: self });
+        for (nodal, (_, first)) in nodals.zip(&self.rods) {
+            nodal.steps.clear();
+            nodal.steps.extend((0..=nodal.links.len()).map(|node| self.variation(first + node)));
+        }
+        self.free_steps = (0..self.bodies.len()).map(|body| self.variation(self.first_body + body)).collect();
+        (!vanished).then_some(negative)
+    }
+
+    fn variation(&self, frame: usize) -> Vec6 {
+        let mut variation = [0.0; 6];
+        for Term { unknown, motions, .. } in &self.terms[self.terms_of[frame].clone()] {
+            for (variation, row) in variation.iter_mut().zip(motions) {
+                *variation += row.iter().zip(&self.right[*unknown]).map(|(a, x)| a * x).sum::<f64>();
+            }
+        }
+        pair(variation)
+    }
+
+    /// The largest turn (rad) and shift (over half a length) of a body in the step.
+    pub fn step_size(&self) -> f64 {
+        let size = |(step, body): (&Vec6, &FreeFrame)| {
+            let shift = step.linear + step.angular.cross(body.place);
+            step.angular.norm().max(2.0 * shift.norm())
+        };
+        self.free_steps.iter().zip(&self.free).map(size).fold(0.0, larger)
+    }
+
+    /// A body's pose after a part of the step.
+    pub fn taken(&self, body: usize, part: f64, pose: &Pose) -> Pose {
+        let moved = along_screw(self.free_steps[body], part, self.free[body].place);
+        Pose {
+            rotation: moved.rotation * pose.rotation,
+            position: pose.position + moved.position * self.axes.length,
+        }
+    }
+
+    /// What is left over of what acts on a frame and all that hangs from it: force, and moment about the network's origin, in the world.
+    pub fn left_over(&self, frame: usize) -> Wrench {
+        let about_origin = self.axes.in_units(self.borne[frame]);
+        Wrench::new(about_origin.angular + self.axes.origin.cross(about_origin.linear), about_origin.linear)
+    }
+
+    /// The frames from which all others hang.
+    pub fn roots(&self) -> impl Iterator<Item = (usize, Member)> {
+        let roots = self.members.iter().copied().enumerate();
+        roots.filter(|(i, _)| self.hangs[*i].is_none())
+    }
+
+    /// The ties in it, a parent's before its children's.
+    pub fn ties(&self) -> impl Iterator<Item = usize> {
+        self.hanging.iter().map(|(_, _, tie)| *tie)
+    }
+
+    /// The network's frames, by the assembly's numbers.
+    pub fn frames(&self) -> &[usize] {
+        &self.frames
+    }
+}
+
+/// What fixes a frame, if anything does.
+fn held(assembly: &Assembly, member: Member) -> Option<&Support> {
+    assembly.support(member).filter(|support| support.fixed.contains(&true))
+}
+
+fn negative(block: &Square<f64>) -> Square<f64> {
+    block.map(|row| row.map(|x| -x))
+}
+
+/// Eliminates the unknowns one after the other, and puts the solution back together in their right-hand sides. Gives how many pivots are negative, and
+/// whether one vanishes.
+struct EliminateNetwork<'a> {
+    network: &'a mut Network,
+}
+
+impl Kernel for EliminateNetwork<'_> {
+    type Output = (usize, bool);
+
+    #[inline(always)]
+    fn run(self) -> (usize, bool) {
+        let Network { structure, diagonal, upper, lower, right, .. } = self.network;
+        let (mut negative, mut vanished) = (0, false);
+        for p in 0..diagonal.len() {
+            let mut pivot = diagonal[p];
+            let scales = factor(&mut pivot);
+            let size: f64 = (0..6).map(|k| diagonal[p][k][k].abs()).sum();
+            for scale in scales {
+                negative += usize::from(scale <= 0.0);
+                // Not a number counts as vanished too.
+                let firm = (1.0 / scale).abs() > SMALLEST_PIVOT * size;
+                vanished |= !firm;
+            }
+            let x = {
+                let mut x = right[p].map(|x| [x]);
+                reduce(&pivot, &scales, &mut x);
+                x.map(|[x]| x)
+            };
+            right[p] = x;
+            let after = &structure.after[p];
+            for (_, block) in after {
+                reduce(&pivot, &scales, &mut upper[*block]);
+            }
+            for (q, block) in after {
+                let lower = lower[*block];
+                for (row, right) in lower.iter().zip(&mut right[*q]) {
+                    *right -= dot(row, &x);
+                }
+                subtract_product(&mut diagonal[*q], &lower, &upper[*block]);
+            }
+            for &(i, j, target) in &structure.pairs[p] {
+                let ((row, from), (column, to)) = (after[i], after[j]);
+                let (left, right) = (lower[from], upper[to]);
+                let target = if row < column { &mut upper[target] } else { &mut lower[target] };
+                subtract_product(target, &left, &right);
+            }
+        }
+        for p in (0..diagonal.len()).rev() {
+            let mut x = right[p];
+            for (q, block) in &structure.after[p] {
+                for (x, row) in x.iter_mut().zip(&upper[*block]) {
+                    *x -= dot(row, &right[*q]);
+                }
+            }
+            right[p] = x;
+        }
+        (negative, vanished)
+    }
+}
+
+#[inline(always)]
+fn dot(a: &[f64; 6], b: &[f64; 6]) -> f64 {
+    (a[0] * b[0] + a[1] * b[1]) + (a[2] * b[2] + a[3] * b[3]) + (a[4] * b[4] + a[5] * b[5])
+}
+
+/// Triangular factors in place, without interchange; gives the pivots' inverses.
+#[inline(always)]
+fn factor(block: &mut Square<f64>) -> [f64; 6] {
+    let mut scales = [0.0; 6];
+    for k in 0..6 {
+        scales[k] = 1.0 / block[k][k];
+        for i in k + 1..6 {
+            block[i][k] *= scales[k];
+            for c in k + 1..6 {
+                block[i][c] -= block[k][c] * block[i][k];
+            }
+        }
+    }
+    scales
+}
+
+/// Solves with the factors for several right-hand sides in place.
+#[inline(always)]
+fn reduce<const COLUMNS: usize>(factors: &Square<f64>, scales: &[f64; 6], x: &mut [[f64; COLUMNS]; 6]) {
+    for k in 0..6 {
+        for i in k + 1..6 {
+            for c in 0..COLUMNS {
+                x[i][c] -= x[k][c] * factors[i][k];
+            }
+        }
+    }
+    for k in (0..6).rev() {
+        for c in 0..COLUMNS {
+            x[k][c] *= scales[k];
+        }
+        for i in 0..k {
+            for c in 0..COLUMNS {
+                x[i][c] -= x[k][c] * factors[i][k];
+            }
+        }
+    }
+}
+
+#[inline(always)]
+fn subtract_product(from: &mut Square<f64>, a: &Square<f64>, b: &Square<f64>) {
+    for (from, a) in from.iter_mut().zip(a) {
+        for c in 0..6 {
+            let term = |k: usize| b[k][c] * a[k];
+            from[c] -= (term(0) + term(1)) + (term(2) + term(3)) + (term(4) + term(5));
+        }
+    }
+}
