@@ -6,10 +6,12 @@
 
 mod body;
 mod joint;
+mod keyframes;
 mod ties;
 
 pub use body::{Body, ball, block, capsule, cylinder};
 pub use joint::{Attachment, Joint, JointKind};
+pub use keyframes::Keyframes;
 pub(crate) use ties::{Cluster, Ties};
 
 use crate::math::{Pose, Vec3};
@@ -52,6 +54,8 @@ pub struct Assembly {
     pub bodies: Vec<Body>,
     /// What ties them together.
     pub joints: Vec<Joint>,
+    /// Supports that move.
+    pub moving: Vec<Keyframes>,
     /// How the medium around moves, m/s, world axes.
     pub wind: Vec3,
 }
@@ -106,7 +110,13 @@ pub enum AssemblyError {
 
 impl Default for Assembly {
     fn default() -> Self {
-        Self { strands: Vec::new(), bodies: Vec::new(), joints: Vec::new(), wind: Vec3::ZERO }
+        Self {
+            strands: Vec::new(),
+            bodies: Vec::new(),
+            joints: Vec::new(),
+            moving: Vec::new(),
+            wind: Vec3::ZERO,
+        }
     }
 }
 

@@ -1,7 +1,7 @@
 //! What holds frames while a step goes on.
 //!
 //! A support that is elsewhere than where its frame is has moved since the last step, and does so evenly: at a stage in the middle of the step it is
-//! in between. So does the hand of a grip, whose damper looks back on where hand and frame were.
+//! in between. So does the hand of a grip, whose damper looks back on where hand and frame were. A support with keyframes is where these say.
 
 use super::Simulation;
 use crate::assembly::{Assembly, Member};
@@ -33,8 +33,16 @@ pub(super) struct Held {
 }
 
 impl Held {
-    pub fn begin(simulation: &Simulation) -> Self {
-        let (assembly, state) = (&simulation.assembly, &simulation.state);
+    pub fn begin(simulation: &mut Simulation) -> Self {
+        let end = simulation.state.time + simulation.work.step;
+        let Simulation { assembly, state, .. } = simulation;
+        for at in 0..assembly.moving.len() {
+            let keyframes = &assembly.moving[at];
+            let (member, pose) = (keyframes.member, keyframes.at(end));
+            if let Some(support) = assembly.support_mut(member) {
+                support.pose = pose;
+            }
+        }
         let mut moving = Vec::new();
         for member in held(assembly) {
             let (Some(frame), Some(support)) = (assembly.frame(member), assembly.support(member)) else {
@@ -59,9 +67,11 @@ impl Held {
         let Simulation { assembly, state, .. } = simulation;
         for moving in &self.moving {
             let frame = assembly.frame(moving.member).unwrap_or_default();
+            let planned = assembly.moving.iter().find(|keyframes| keyframes.member == moving.member);
+            let planned = planned.map(|keyframes| keyframes.at(state.time + part * self.step));
             let Some(support) = assembly.support_mut(moving.member) else { continue };
             let rest = Pose::exp(moving.back.log() * (1.0 - part));
-            support.pose = rest.compose(&moving.target);
+            support.pose = planned.unwrap_or_else(|| rest.compose(&moving.target));
             if let (Some(hand), Some(grip)) = (&moving.hand, &mut support.grip) {
                 grip.hand = hand.before.compose(&Pose::exp(hand.before.between(&hand.target).log() * part));
                 let time_step = part * self.step;
@@ -72,15 +82,15 @@ impl Held {
 
     /// Puts all where they are at the step's end.
     pub fn end(self, simulation: &mut Simulation) {
-        self.at(1.0, simulation);
         let Simulation { assembly, state, .. } = simulation;
         for moving in &self.moving {
             let frame = assembly.frame(moving.member).unwrap_or_default();
             let Some(support) = assembly.support_mut(moving.member) else { continue };
             support.pose = moving.target;
-            if let Some(grip) = &mut support.grip {
-                let (hand, held) = (grip.hand, state.poses[frame]);
-                grip.last = Some(LastFrame { hand, held, time_step: self.step });
+            if let (Some(hand), Some(grip)) = (&moving.hand, &mut support.grip) {
+                grip.hand = hand.target;
+                grip.last =
+                    Some(LastFrame { hand: hand.target, held: state.poses[frame], time_step: self.step });
             }
         }
     }
