@@ -29,11 +29,21 @@ impl Budget {
     }
 }
 
-/// How fast energy goes through what is not conservative, W.
-#[derive(Clone, Copy, Debug, Default)]
-pub(super) struct Power {
+/// How fast energy goes through what is not conservative, W, or how much of it went, J.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct Power {
+    /// Out of the assembly by damping and drag.
     pub dissipated: f64,
+    /// Into it by supports, hands and loads that follow.
     pub worked: f64,
+}
+
+impl Power {
+    /// Adds the energy that goes in so long a time, s.
+    pub fn add(&mut self, power: Self, seconds: f64) {
+        self.dissipated += power.dissipated * seconds;
+        self.worked += power.worked * seconds;
+    }
 }
 
 impl Simulation {
@@ -112,7 +122,7 @@ impl Simulation {
             }
             for (node, load) in problem.loads.body.iter().enumerate() {
                 let frame = first + node;
-                let velocity = stage.velocities[frame];
+                let velocity = stage.velocity(frame);
                 let along = self.work.poses[frame].rotation.transpose_mul(velocity.linear);
                 power.worked += load.angular.dot(velocity.angular) + load.linear.dot(along);
             }
@@ -122,18 +132,19 @@ impl Simulation {
                 power.worked += self.support_power(assembly.first_body() + body, support);
             }
         }
-        for (velocity, inertia) in stage.velocities.iter().zip(&self.work.inertia) {
+        for (frame, inertia) in self.work.inertia.iter().enumerate() {
+            let velocity = stage.velocity(frame);
             let turning = velocity.angular.dot(inertia.rotational.scale(velocity.angular));
             let motion = turning + velocity.linear.dot(velocity.linear) * inertia.mass;
             power.dissipated += self.settings.mass_damping * motion;
         }
-        let drags = stage.drags.iter().zip(&stage.velocities);
-        power.dissipated -= drags.map(|(force, velocity)| force.dot(velocity.linear)).sum::<f64>();
+        let drags = stage.drags.iter().enumerate();
+        power.dissipated -= drags.map(|(frame, force)| force.dot(stage.velocity(frame).linear)).sum::<f64>();
         power
     }
 
     fn support_power(&self, frame: usize, support: &Support) -> f64 {
-        let (pose, velocity) = (&self.work.poses[frame], self.work.stage.velocities[frame]);
+        let (pose, velocity) = (&self.work.poses[frame], self.work.stage.velocity(frame));
         let mut exerts = support.grip.as_ref().map_or(Wrench::ZERO, |grip| grip.wrench(pose));
         if support.fixed.contains(&true) {
             exerts += self.reaction_at(frame, pose.position);

@@ -57,6 +57,14 @@ pub enum SimulationError {
         /// What it must be.
         wanted: &'static str,
     },
+    /// Only one method has another inside by which its error is known.
+    #[error("steps are chosen by their error with \"sdirk4\" only, not with \"{0}\"")]
+    NoErrorOf(&'static str),
+    /// The midpoint rule is for rods alone.
+    #[error(
+        "the midpoint rule is for rods without bodies and hinges: take another integrator, \"sdirk4\" or \"bdf2\""
+    )]
+    NoMidpoint,
     /// At rest a rod would not be where it is held.
     #[error(
         "in its rest shape rod {rod} is not where it is held at s = {s} m: start in equilibrium, or hold it there"

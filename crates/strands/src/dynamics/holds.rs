@@ -6,7 +6,7 @@
 use super::Simulation;
 use crate::assembly::{Assembly, Member};
 use crate::coupling::LastFrame;
-use crate::math::Pose;
+use crate::math::{Pose, part_of_the_way};
 use crate::statics::{Support, meet};
 
 /// A support that moves during a step, and the frame it holds.
@@ -14,8 +14,9 @@ struct Moving {
     member: Member,
     /// Where it is at the step's end.
     target: Pose,
-    /// From where the frame has to be at the end to where it is at the beginning, in the world.
-    back: Pose,
+    /// Where the frame is at the beginning, and where it has to be at the end.
+    from: Pose,
+    to: Pose,
     hand: Option<Hand>,
 }
 
@@ -49,14 +50,13 @@ impl Held {
                 continue;
             };
             let pose = state.poses[frame];
-            let met = meet(support, &pose);
-            let back = pose.compose(&met.inverse());
+            let to = meet(support, &pose);
             let hand = support.grip.map(|grip| {
                 let before = grip.last.map_or(grip.hand, |last| last.hand);
                 Hand { target: grip.hand, before }
             });
-            if hand.is_some() || back.log().max_abs() > 0.0 {
-                moving.push(Moving { member, target: support.pose, back, hand });
+            if hand.is_some() || pose.between(&to).log().max_abs() > 0.0 {
+                moving.push(Moving { member, target: support.pose, from: pose, to, hand });
             }
         }
         Self { moving, step: simulation.work.step }
@@ -64,16 +64,26 @@ impl Held {
 
     /// Puts all where they are when a part of the step is over.
     pub fn at(&self, part: f64, simulation: &mut Simulation) {
+        self.put(part, simulation, true);
+    }
+
+    /// Puts all evenly between where they are at the step's beginning and end.
+    pub fn halfway(&self, part: f64, simulation: &mut Simulation) {
+        self.put(part, simulation, false);
+    }
+
+    fn put(&self, part: f64, simulation: &mut Simulation, as_planned: bool) {
         let Simulation { assembly, state, .. } = simulation;
         for moving in &self.moving {
             let frame = assembly.frame(moving.member).unwrap_or_default();
             let planned = assembly.moving.iter().find(|keyframes| keyframes.member == moving.member);
             let planned = planned.map(|keyframes| keyframes.at(state.time + part * self.step));
             let Some(support) = assembly.support_mut(moving.member) else { continue };
-            let rest = Pose::exp(moving.back.log() * (1.0 - part));
-            support.pose = planned.unwrap_or_else(|| rest.compose(&moving.target));
+            let between = part_of_the_way(&moving.from, &moving.to, part);
+            let moved = || between.compose(&moving.to.inverse()).compose(&moving.target);
+            support.pose = planned.filter(|_| as_planned).unwrap_or_else(moved);
             if let (Some(hand), Some(grip)) = (&moving.hand, &mut support.grip) {
-                grip.hand = hand.before.compose(&Pose::exp(hand.before.between(&hand.target).log() * part));
+                grip.hand = part_of_the_way(&hand.before, &hand.target, part);
                 let time_step = part * self.step;
                 grip.last = Some(LastFrame { hand: hand.before, held: state.poses[frame], time_step });
             }

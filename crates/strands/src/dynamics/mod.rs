@@ -8,23 +8,23 @@ mod energy;
 mod failure;
 mod holds;
 mod integrator;
+mod midpoint;
 mod newton;
 mod stage;
 mod start;
 mod state;
+mod step;
 
-pub use energy::Budget;
+pub use energy::{Budget, Power};
 pub use failure::{SimulationError, StepFailure};
 pub use integrator::Integrator;
 pub use start::Start;
 pub use state::{Past, State};
 
-use crate::assembly::{Assembly, Body, Cluster, Strand, Ties};
+use crate::assembly::{Assembly, Body, Cluster, JointKind, Strand, Ties};
 use crate::math::{Pose, SimdLevel, Vec3, Vec6, Wrench};
 use crate::rod::{NodeInertia, Order};
 use crate::statics::{Network, Problem};
-use energy::Power;
-use integrator::{IMPLICIT_EULER, RungeKutta, SDIRK4};
 use newton::{Group, RodSystem};
 use stage::Stage;
 
@@ -33,8 +33,11 @@ use stage::Stage;
 pub struct Settings {
     /// How a step is made.
     pub integrator: Integrator,
-    /// How long it is, s.
+    /// How long it is, s; where its error chooses it, how long it is at most.
     pub time_step: f64,
+    /// How far off its method of order 3 a step of [`Integrator::Sdirk4`] may be, in rad and over the longest rod's length. Steps are then as long as that
+    /// allows; otherwise they are all alike.
+    pub local_error: Option<f64>,
     /// The residual at which a stage is solved, as that of statics: forces and moments over `EI/L²` and `EI/L` or the largest carried, turns in rad and
     /// shifts over the length. Where round-off of the frames leaves more, as in very short steps, that.
     pub tolerance: f64,
@@ -52,6 +55,7 @@ impl Default for Settings {
         Self {
             integrator: Integrator::Bdf2,
             time_step: 1e-3,
+            local_error: None,
             tolerance: 1e-9,
             max_iterations: 20,
             bounded: false,
@@ -65,10 +69,14 @@ impl Default for Settings {
 pub struct Step {
     /// The time at its end, s.
     pub time: f64,
+    /// How long it was, s.
+    pub seconds: f64,
     /// Newton iterations of all its stages.
     pub iterations: usize,
     /// The largest residual of its stages.
     pub residual: f64,
+    /// In how many pieces it was made, or, where its error chose it, how often it was tried.
+    pub pieces: usize,
 }
 
 /// A rod that moves.
@@ -168,13 +176,13 @@ impl Simulation {
             inertia,
             lengths,
             stage: Stage::default(),
-            poses: Vec::new(),
+            poses: assembly.rest_poses(),
             step: settings.time_step,
             coordinate_rates: Vec::new(),
             momentum_rates: Vec::new(),
             history: Vec::new(),
         };
-        let state = State::at_rest(&assembly, assembly.rest_poses());
+        let state = State::at_rest(&assembly, assembly.rest_poses(), settings.time_step);
         let first = assembly.strands.first().map(|strand| strand.problem.rod.description().base.position);
         let origin = first.unwrap_or(Vec3::ZERO);
         let mut simulation = Self { assembly, settings, state, origin, work };
@@ -231,135 +239,6 @@ impl Simulation {
         }
         self.state.past = Past::None;
     }
-
-    /// Makes one step.
-    ///
-    /// # Errors
-    /// Where it cannot be made; the state is then as before.
-    pub fn step(&mut self) -> Result<Step, StepFailure> {
-        self.work.step = self.settings.time_step;
-        let held = holds::Held::begin(self);
-        let step = match self.settings.integrator {
-            Integrator::ImplicitEuler => self.runge_kutta(&IMPLICIT_EULER, &held),
-            Integrator::Sdirk4 => self.runge_kutta(&SDIRK4, &held),
-            Integrator::Bdf2 => self.bdf2(&held),
-            Integrator::GeneralizedAlpha { spectral_radius } => {
-                self.generalized_alpha(spectral_radius, &held)
-            }
-        };
-        held.end(self);
-        step
-    }
-
-    fn runge_kutta(&mut self, method: &RungeKutta, held: &holds::Held) -> Result<Step, StepFailure> {
-        let (h, frames) = (self.work.step, self.state.poses.len());
-        let (mut taken, mut lost) = (Taken::default(), Power::default());
-        self.work.coordinate_rates.clear();
-        self.work.momentum_rates.clear();
-        self.work.stage.begin(&self.state);
-        for (number, before) in method.before.iter().enumerate() {
-            held.at(method.time(number), self);
-            let Work { stage, coordinate_rates, momentum_rates, poses, .. } = &mut self.work;
-            stage.set_up(method.diagonal * h, &self.state);
-            let rates = coordinate_rates.chunks(frames).zip(momentum_rates.chunks(frames));
-            for (a, (coordinates, momenta)) in before.iter().zip(rates) {
-                stage.add_history(a * h, coordinates, momenta);
-            }
-            poses.resize(frames, Pose::IDENTITY);
-            match number.checked_sub(1) {
-                None => stage.predict(&self.state.velocities, poses),
-                Some(last) => stage.predict(&coordinate_rates[last * frames..], poses),
-            }
-            taken.add(self.solve_stage()?);
-            let Work { stage, coordinate_rates, momentum_rates, .. } = &mut self.work;
-            coordinate_rates.extend_from_slice(&stage.coordinate_rates);
-            momentum_rates.extend(stage.momentum_rates());
-            let (power, times) = (self.power(), method.weight(number) * h);
-            lost.dissipated += power.dissipated * times;
-            lost.worked += power.worked * times;
-        }
-        Ok(self.taken(taken, lost))
-    }
-
-    fn bdf2(&mut self, held: &holds::Held) -> Result<Step, StepFailure> {
-        let Past::Before { poses, momenta } = &self.state.past else {
-            let now = (self.state.poses.clone(), self.state.momenta.clone());
-            let step = self.runge_kutta(&SDIRK4, held)?;
-            self.state.past = Past::Before { poses: now.0, momenta: now.1 };
-            return Ok(step);
-        };
-        let h = self.work.step;
-        let Work { stage, poses: guess, .. } = &mut self.work;
-        stage.begin(&self.state);
-        stage.set_up(2.0 / 3.0 * h, &self.state);
-        stage.look_back(poses, momenta);
-        guess.resize(poses.len(), Pose::IDENTITY);
-        stage.predict(&self.state.velocities, guess);
-        let taken = self.solve_stage()?;
-        let Power { dissipated, worked } = self.power();
-        let state = &mut self.state;
-        if let Past::Before { poses, momenta } = &mut state.past {
-            poses.copy_from_slice(&state.poses);
-            momenta.copy_from_slice(&state.momenta);
-        }
-        Ok(self.taken(taken, Power { dissipated: dissipated * h, worked: worked * h }))
-    }
-
-    fn generalized_alpha(&mut self, radius: f64, held: &holds::Held) -> Result<Step, StepFailure> {
-        let Past::Rates { momentum, mean_velocity, mean_momentum } = &self.state.past else {
-            let step = self.runge_kutta(&SDIRK4, held)?;
-            let momentum: Vec<Wrench> = self.work.stage.momentum_rates().collect();
-            self.state.past = Past::Rates {
-                mean_velocity: self.state.velocities.clone(),
-                mean_momentum: momentum.clone(),
-                momentum,
-            };
-            return Ok(step);
-        };
-        // In terms of Jansen, Whiting & Hulbert `α_m` and `α_f` are one less these.
-        let alpha_m = (3.0 * radius - 1.0) / (2.0 * (1.0 + radius));
-        let alpha_f = radius / (1.0 + radius);
-        let gamma = 0.5 - alpha_m + alpha_f;
-        let h = self.work.step;
-        let (of_mean, of_now) = (gamma * alpha_m / (1.0 - alpha_m), gamma / (1.0 - alpha_m));
-        let Work { stage, poses, .. } = &mut self.work;
-        stage.begin(&self.state);
-        stage.set_up(of_now * (1.0 - alpha_f) * h, &self.state);
-        stage.add_history(h * (1.0 - gamma - of_mean), mean_velocity, mean_momentum);
-        stage.add_history(h * of_now * alpha_f, &self.state.velocities, momentum);
-        poses.resize(self.state.poses.len(), Pose::IDENTITY);
-        stage.predict(&self.state.velocities, poses);
-        let taken = self.solve_stage()?;
-        let Power { dissipated, worked } = self.power();
-        let Self { state, work: Work { stage, poses, .. }, .. } = self;
-        let mean = |now: Vec6, before: Vec6, mean: Vec6| {
-            (now * (1.0 - alpha_f) + before * alpha_f - mean * alpha_m) * (1.0 / (1.0 - alpha_m))
-        };
-        if let Past::Rates { momentum, mean_velocity, mean_momentum } = &mut state.past {
-            for (i, rate) in stage.momentum_rates().enumerate() {
-                let velocity = mean(stage.coordinate_rates[i], state.velocities[i], mean_velocity[i]);
-                mean_velocity[i] = stage.turned_with(i, &poses[i], velocity);
-                mean_momentum[i] = mean(rate, momentum[i], mean_momentum[i]);
-                momentum[i] = rate;
-            }
-        }
-        Ok(self.taken(taken, Power { dissipated: dissipated * h, worked: worked * h }))
-    }
-
-    /// Ends a step where its last stage is.
-    fn taken(&mut self, taken: Taken, lost: Power) -> Step {
-        let Self { state, work: Work { groups, stage, poses, step, .. }, assembly, .. } = self;
-        state.poses.copy_from_slice(poses);
-        for RodSystem { rod, record, .. } in groups.iter().flat_map(|group| &group.rods) {
-            state.wrenches[assembly.elements(*rod)].copy_from_slice(&record.wrenches);
-        }
-        state.velocities.copy_from_slice(&stage.velocities);
-        state.momenta.copy_from_slice(&stage.momenta);
-        state.dissipated += lost.dissipated;
-        state.worked += lost.worked;
-        state.time += *step;
-        Step { time: state.time, iterations: taken.iterations, residual: taken.residual }
-    }
 }
 
 /// How its stages went.
@@ -405,6 +284,16 @@ fn check(assembly: &Assembly, settings: &Settings) -> Result<(), SimulationError
     setting("the tolerance", tolerance, positive(tolerance), "greater than 0")?;
     let not_negative = |value: f64| value >= 0.0 && value.is_finite();
     setting("the damping of mass", mass_damping, not_negative(mass_damping), "0 or more")?;
+    if let Some(error) = settings.local_error {
+        setting("the local error", error, positive(error), "greater than 0")?;
+        if integrator != Integrator::Sdirk4 {
+            return Err(SimulationError::NoErrorOf(integrator.name()));
+        }
+    }
+    let hinges = assembly.joints.iter().any(|joint| joint.kind == JointKind::Hinge);
+    if integrator == Integrator::Midpoint && (hinges || !assembly.bodies.is_empty()) {
+        return Err(SimulationError::NoMidpoint);
+    }
     if let Integrator::GeneralizedAlpha { spectral_radius: radius } = integrator {
         setting("the spectral radius", radius, (0.0..=1.0).contains(&radius), "from 0 to 1")?;
     }

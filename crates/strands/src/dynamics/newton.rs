@@ -58,19 +58,25 @@ impl RodSystem {
             lost: given.lost,
             air: moves.then(|| (strand.drag, &given.lengths[nodes.clone()], given.assembly.wind)),
         };
-        stage.take_inertia(nodes, given.inertia, &self.record.poses, given.origin, &resistance);
-        if strand.viscosity > 0.0 {
-            let elastic = strand.problem.rod.diagonal_points().unwrap_or_default();
-            let elements = self.first_element..self.first_element + elastic.len();
-            stage.take_viscosity(elements, self.first, elastic, strand.viscosity, &self.record.poses);
+        let (viscosity, poses) = (strand.viscosity, &self.record.poses);
+        let elastic = strand.problem.rod.diagonal_points().unwrap_or_default();
+        let elements = self.first_element..self.first_element + elastic.len();
+        if stage.middle {
+            stage.take_inertia_at_middle(nodes, given.inertia, poses, given.origin, &resistance);
+            stage.take_secants(elements, self.first, elastic, viscosity, poses);
+            return;
+        }
+        stage.take_inertia(nodes, given.inertia, poses, given.origin, &resistance);
+        if viscosity > 0.0 {
+            stage.take_viscosity(elements, self.first, elastic, viscosity, poses);
         }
     }
 
     fn motion<'a>(&self, assembly: &'a Assembly, stage: &'a Stage) -> Motion<'a> {
         let strand = &assembly.strands[self.rod];
         let elastic = strand.problem.rod.diagonal_points().unwrap_or_default();
-        let viscous = &stage.points[self.first_element..self.first_element + elastic.len()];
-        let points = if strand.viscosity > 0.0 { viscous } else { elastic };
+        let taken = &stage.points[self.first_element..self.first_element + elastic.len()];
+        let points = if stage.middle || strand.viscosity > 0.0 { taken } else { elastic };
         Motion { points, inertial: &stage.inertial[self.first..self.first + self.record.poses.len()] }
     }
 }
@@ -223,7 +229,7 @@ impl Group {
 
     /// What is left over of frames that nothing holds goes into their momenta: then none is lost or made.
     fn keep_left_over(&self, assembly: &Assembly, stage: &mut Stage, origin: Vec3) {
-        let times = stage.of_rate;
+        let times = if stage.middle { 2.0 * stage.of_rate } else { stage.of_rate };
         let mut keep = |frame: usize, left: Wrench| {
             let about = Wrench::new(left.angular - origin.cross(left.linear), left.linear);
             stage.momenta[frame] += about * times;
@@ -286,6 +292,8 @@ impl Simulation {
         let (time, step) = (state.time, work.step);
         let singular = |history: &[f64]| StepFailure::Singular { time, step, history: history.to_vec() };
         let mut iterations = 0;
+        // What is left over of a step that keeps energy adds up over all steps: one iteration more takes it to round-off.
+        let mut last = !stage.middle;
         let residual = loop {
             let residual = group.linearise(&given, stage, &mut work.poses);
             work.history.push(residual);
@@ -293,10 +301,11 @@ impl Simulation {
                 return Err(singular(&work.history));
             }
             let spent = iterations == settings.max_iterations;
-            let enough = if settings.bounded { spent } else { residual <= given.tolerance };
-            if enough {
+            let solved = residual <= given.tolerance;
+            if spent && (settings.bounded || solved) || solved && last && !settings.bounded {
                 break residual;
             }
+            last |= solved;
             if spent {
                 return Err(StepFailure::NotConverged { time, step, history: work.history.clone() });
             }

@@ -12,9 +12,12 @@ use core::ops::Range;
 #[derive(Clone, Debug, Default)]
 pub(super) struct Stage {
     /// The frames at the step's beginning, and what canonical coordinates about them and momenta would be without rates at this time.
-    base: Vec<Pose>,
+    pub base: Vec<Pose>,
     offsets: Vec<Vec6>,
-    known_momenta: Vec<Wrench>,
+    pub known_momenta: Vec<Wrench>,
+    /// Whether the frames are those in the middle of a step, and the velocities at its beginning.
+    pub middle: bool,
+    pub velocities_before: Vec<Vec6>,
     /// How much a rate counts, s.
     pub of_rate: f64,
     /// The laws of the elements with what their rates add, where a rod is viscous.
@@ -84,6 +87,12 @@ impl Stage {
             let q = self.offsets[i] + self.coordinate_rates[i] * self.of_rate;
             *pose = at_coordinates(&self.base[i], q);
         }
+    }
+
+    /// How a frame moves in the stage.
+    pub fn velocity(&self, frame: usize) -> Vec6 {
+        let velocity = self.velocities[frame];
+        if self.middle { (velocity + self.velocities_before[frame]) * 0.5 } else { velocity }
     }
 
     /// The rates of the momenta.
@@ -175,7 +184,7 @@ impl Stage {
 }
 
 /// What the air exerts on a rod along `tangent` that moves through it, over its length, and how that changes with the velocity.
-fn air(drag: &Drag, tangent: Vec3, velocity: Vec3) -> (Vec3, Mat3) {
+pub(super) fn air(drag: &Drag, tangent: Vec3, velocity: Vec3) -> (Vec3, Mat3) {
     let across = Mat3::IDENTITY - Mat3::outer(tangent, tangent);
     let normal = across * velocity;
     let speed = normal.norm();
@@ -218,7 +227,7 @@ impl Turning {
 }
 
 /// `T(θ)`.
-fn so3_tangent(theta: Vec3) -> Mat3 {
+pub(super) fn so3_tangent(theta: Vec3) -> Mat3 {
     let (k, hat) = (exp_coefficients(theta.dot(theta)), Mat3::hat(theta));
     Mat3::IDENTITY - hat.scaled(k.b) + (hat * hat).scaled(k.c)
 }

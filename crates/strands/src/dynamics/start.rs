@@ -1,6 +1,6 @@
 //! Where a simulation starts.
 
-use super::{Integrator, Past, Settings, Simulation, SimulationError, State, StepFailure};
+use super::{Integrator, Past, Power, Settings, Simulation, SimulationError, State, StepFailure};
 use crate::math::{Vec6, Wrench, larger};
 use crate::statics::{self, Method, Scheme, Workspace, meet};
 
@@ -82,11 +82,11 @@ impl Simulation {
         let gravity = self.pull();
         let slowest = if gravity > 0.0 { (self.assembly.size() / gravity).sqrt() } else { 1.0 };
         let mut step = 0.1 * slowest;
-        self.settings = Settings { integrator: Integrator::ImplicitEuler, bounded: false, ..settings };
+        self.settings =
+            Settings { integrator: Integrator::ImplicitEuler, bounded: false, local_error: None, ..settings };
         let mut outcome = Ok(());
         for _ in 0..RELAXATIONS {
-            self.settings.time_step = step;
-            outcome = self.step().map(|taken| {
+            outcome = self.undivided(Integrator::ImplicitEuler, step).map(|taken| {
                 if taken.iterations <= FEW {
                     step *= LENGTHEN;
                 }
@@ -101,8 +101,8 @@ impl Simulation {
         }
         self.settings = settings;
         let last = self.work.step;
-        let State { time, dissipated, worked, .. } = &mut self.state;
-        (*time, *dissipated, *worked) = (0.0, 0.0, 0.0);
+        let State { time, dissipated, worked, next_step, .. } = &mut self.state;
+        (*time, *dissipated, *worked, *next_step) = (0.0, 0.0, 0.0, settings.time_step);
         if last <= LONG * slowest && outcome.is_ok() {
             outcome =
                 Err(StepFailure::NotConverged { time: 0.0, step: last, history: self.work.history.clone() });
@@ -112,10 +112,10 @@ impl Simulation {
 
     /// Stops all motion.
     fn stop(&mut self) {
-        let State { velocities, momenta, past, .. } = &mut self.state;
+        let State { velocities, momenta, past, power, .. } = &mut self.state;
         velocities.fill(Vec6::ZERO);
         momenta.fill(Wrench::ZERO);
-        *past = Past::None;
+        (*past, *power) = (Past::None, Power::default());
     }
 
     /// The largest acceleration that loads give to a rod or body as a whole, m/s².

@@ -1,5 +1,6 @@
 //! Where an assembly is, and how it moves.
 
+use super::energy::Power;
 use crate::assembly::Assembly;
 use crate::math::{Pose, Vec6, Wrench};
 
@@ -21,6 +22,10 @@ pub struct State {
     pub dissipated: f64,
     /// What supports, hands and loads that follow have put in since the start, J.
     pub worked: f64,
+    /// How fast energy goes these ways, W.
+    pub power: Power,
+    /// How long the next step may be, s, where errors choose it.
+    pub next_step: f64,
     /// What the integrator looks back on.
     pub past: Past,
 }
@@ -51,7 +56,7 @@ pub enum Past {
 
 impl State {
     /// At rest in some frames.
-    pub(super) fn at_rest(assembly: &Assembly, poses: Vec<Pose>) -> Self {
+    pub(super) fn at_rest(assembly: &Assembly, poses: Vec<Pose>, next_step: f64) -> Self {
         let frames = poses.len();
         Self {
             time: 0.0,
@@ -61,6 +66,8 @@ impl State {
             wrenches: vec![Wrench::ZERO; frames - assembly.bodies.len() - assembly.strands.len()],
             dissipated: 0.0,
             worked: 0.0,
+            power: Power::default(),
+            next_step,
             past: Past::None,
         }
     }

@@ -160,6 +160,15 @@ impl<V: Vector> Pose<V> {
     }
 }
 
+/// A frame on the way from one to another: along a straight line, by the shortest turn.
+pub(crate) fn part_of_the_way(from: &Pose, to: &Pose, part: f64) -> Pose {
+    let turn = from.rotation.turn_to(&to.rotation) * part;
+    Pose {
+        rotation: from.rotation * Quat::from_rotation_vector(turn).to_matrix(),
+        position: from.position + (to.position - from.position) * part,
+    }
+}
+
 /// The tangent of the exponential `T(x) = Σ (−1)^k/(k+1)! ad_x^k`: `d exp(x) = exp(x) (T(x) dx)^`.
 pub fn tangent(x: Vec6) -> Mat6 {
     let (u, v) = (x.angular, x.linear);

@@ -1,3 +1,4 @@
+mod held;
 mod network;
 
 use super::{Integrator, Settings, Simulation, Start};
@@ -38,7 +39,8 @@ fn simulated(problem: Problem, integrator: Integrator, time_step: f64, start: St
 }
 
 const ALPHA: Integrator = Integrator::GeneralizedAlpha { spectral_radius: 0.8 };
-const ALL: [Integrator; 4] = [Integrator::ImplicitEuler, Integrator::Bdf2, ALPHA, Integrator::Sdirk4];
+const ALL: [Integrator; 5] =
+    [Integrator::ImplicitEuler, Integrator::Bdf2, ALPHA, Integrator::Midpoint, Integrator::Sdirk4];
 
 #[test]
 fn integrators_have_their_order() {
@@ -82,6 +84,7 @@ fn integrators_have_their_order() {
             (Integrator::ImplicitEuler, 1.0, 80),
             (Integrator::Bdf2, 2.0, 40),
             (ALPHA, 2.0, 40),
+            (Integrator::Midpoint, 2.0, 40),
             (Integrator::Sdirk4, 4.0, 12),
         ] {
             let error = |steps: usize| after(integrator, steps).between(&exact).log().max_abs();
@@ -297,4 +300,44 @@ fn at_rest_a_rod_must_be_where_it_is_held() {
     problem.end = Support::pinned(Pose { position: Vec3::new(0.02, 0.0, 0.09), ..Pose::IDENTITY });
     let refused = Simulation::new(problem, Settings::default(), Start::Rest).unwrap_err();
     assert!(refused.to_string().contains("not where it is held at s = 0.1 m"), "{refused}");
+}
+
+#[test]
+fn the_midpoint_rule_keeps_energy_and_momentum() {
+    // A suture that tumbles, bends and vibrates; no step is as short as its motions are.
+    let rod = suture(10);
+    let base = rod.description().base;
+    let free = Problem { start: Support::free(base), ..Problem::cantilever(rod) };
+    let settings = Settings {
+        integrator: Integrator::Midpoint,
+        time_step: 1e-3,
+        tolerance: 1e-12,
+        ..Settings::default()
+    };
+    let mut simulation = Simulation::new(free, settings, Start::Rest).unwrap();
+    let velocity = |i: usize| {
+        let s = f64::from(i as u8) / 10.0;
+        Vec6::new(Vec3::new(8.0, -5.0, 3.0), Vec3::new(0.8 - 6.0 * s * (1.0 - s), 0.9 * s - 0.44, 0.01))
+    };
+    simulation.set_velocities(&(0..=10).map(velocity).collect::<Vec<_>>());
+    let began = simulation.energy().total();
+    let (momentum, angular) = simulation.momentum();
+    let (mut drift, mut most, mut iterations): (f64, f64, usize) = (0.0, 0.0, 0);
+    for step in 0..100_000 {
+        match simulation.step() {
+            Ok(taken) => iterations += taken.iterations,
+            Err(failure) => panic!("step {step}: {failure}"),
+        }
+        let energy = simulation.energy();
+        most = most.max(energy.elastic / began);
+        drift = drift.max((energy.total() / began - 1.0).abs());
+    }
+    let (later, turned) = simulation.momentum();
+    let lost = (later - momentum).norm() / momentum.norm();
+    let lost_angular = (turned - angular).norm() / angular.norm();
+    println!(
+        "drift {drift:e}, momentum {lost:e}, angular {lost_angular:e}, elastic {most}, {iterations} iterations"
+    );
+    assert!(most > 0.05, "it vibrates: {most}");
+    assert!(drift < 1e-6 && lost < 1e-10 && lost_angular < 1e-10, "{drift:e} {lost:e} {lost_angular:e}");
 }

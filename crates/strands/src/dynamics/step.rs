@@ -1,0 +1,322 @@
+//! One step in time: its stages, and what becomes of a step that cannot be made at once.
+
+use super::energy::Power;
+use super::holds::Held;
+use super::integrator::{IMPLICIT_EULER, Integrator, RungeKutta, SDIRK4, SDIRK4_ERROR};
+use super::newton::RodSystem;
+use super::{Past, Simulation, Step, StepFailure, Taken, Work};
+use crate::math::{Pose, Vec6, Wrench, larger};
+
+/// Into so many pieces is a step cut that was not solved, one after the other until it is.
+const PIECES: [usize; 3] = [4, 16, 64];
+/// A step that is chosen by its error is so much shorter than that would allow, and never so many times longer or shorter than the last.
+const SAFETY: f64 = 0.9;
+const LONGER: f64 = 4.0;
+const SHORTER: f64 = 0.2;
+/// Steps are not shortened below this part of the longest for their error.
+const SHORTEST: f64 = 1e-9;
+
+/// A part of a step: where it begins and how long it is, over the whole.
+#[derive(Clone, Copy)]
+struct Piece {
+    begin: f64,
+    length: f64,
+}
+
+const WHOLE: Piece = Piece { begin: 0.0, length: 1.0 };
+
+impl Simulation {
+    /// Makes one step: of [`Settings::time_step`](super::Settings::time_step), or one that [`Settings::local_error`](super::Settings::local_error)
+    /// allows. A step whose equations are not solved is cut into pieces, which [`Step::pieces`] tells.
+    ///
+    /// # Errors
+    /// Where it cannot be made; the state is then as before.
+    pub fn step(&mut self) -> Result<Step, StepFailure> {
+        self.step_of_at_most(f64::INFINITY)
+    }
+
+    /// Makes steps until a time, s. Where all steps are alike the last one ends nearest to it.
+    ///
+    /// # Errors
+    /// Where one cannot be made; the state is then that before it.
+    pub fn advance(&mut self, until: f64) -> Result<Step, StepFailure> {
+        let mut all = Step { time: self.state.time, seconds: 0.0, iterations: 0, residual: 0.0, pieces: 0 };
+        let slack = match self.settings.local_error {
+            Some(_) => 1e-9 * self.settings.time_step,
+            None => 0.5 * self.settings.time_step,
+        };
+        while self.state.time < until - slack {
+            let step = self.step_of_at_most(until - self.state.time)?;
+            all.time = step.time;
+            all.seconds += step.seconds;
+            all.iterations += step.iterations;
+            all.residual = larger(all.residual, step.residual);
+            all.pieces += step.pieces;
+        }
+        Ok(all)
+    }
+
+    fn step_of_at_most(&mut self, longest: f64) -> Result<Step, StepFailure> {
+        let longest = match self.settings.local_error {
+            Some(allowed) => return self.step_by_error(allowed, longest),
+            None => self.settings.time_step,
+        };
+        self.work.step = longest;
+        let held = Held::begin(self);
+        let step = self.whole_or_in_pieces(&held);
+        held.end(self);
+        step
+    }
+
+    fn whole_or_in_pieces(&mut self, held: &Held) -> Result<Step, StepFailure> {
+        let integrator = self.settings.integrator;
+        let failure = match self.piece(integrator, held, WHOLE) {
+            Ok(taken) => return Ok(self.report(taken, self.work.step, 1)),
+            Err(failure) => failure,
+        };
+        let before = self.state.clone();
+        // A piece cannot look back on steps of another length.
+        let alone = match integrator {
+            Integrator::Bdf2 | Integrator::GeneralizedAlpha { .. } => Integrator::Sdirk4,
+            other => other,
+        };
+        for pieces in PIECES {
+            let length = 1.0 / pieces as f64;
+            let mut taken = Taken::default();
+            let all = (0..pieces).try_for_each(|piece| {
+                taken.add(self.piece(alone, held, Piece { begin: piece as f64 * length, length })?);
+                Ok::<(), StepFailure>(())
+            });
+            if all.is_ok() {
+                // Not a sum of pieces.
+                self.state.time = before.time + self.work.step;
+                self.look_back_on(integrator, before.poses, before.momenta);
+                return Ok(self.report(taken, self.work.step, pieces));
+            }
+            self.state.clone_from(&before);
+        }
+        Err(failure)
+    }
+
+    /// Makes a step of a length, or fails.
+    pub(super) fn undivided(&mut self, integrator: Integrator, seconds: f64) -> Result<Taken, StepFailure> {
+        self.work.step = seconds;
+        let held = Held::begin(self);
+        let made = self.piece(integrator, &held, WHOLE);
+        held.end(self);
+        made
+    }
+
+    /// Makes a step as long as its error allows, by the method of order 4 and the one of order 3 in it.
+    fn step_by_error(&mut self, allowed: f64, longest: f64) -> Result<Step, StepFailure> {
+        let before = self.state.clone();
+        let mut iterations = 0;
+        let longest = longest.min(self.settings.time_step);
+        // One that is nearly over is divided evenly.
+        let mut step = if before.next_step < longest && 2.0 * before.next_step > longest {
+            0.5 * longest
+        } else {
+            longest.min(before.next_step)
+        };
+        for tries in 1.. {
+            let made = self.undivided(Integrator::Sdirk4, step);
+            let error = self.local_error() / allowed;
+            let grows = match &made {
+                Ok(_) => (SAFETY / error.powf(0.25)).clamp(SHORTER, LONGER),
+                Err(_) => SHORTER,
+            };
+            match made {
+                Ok(taken) if error <= 1.0 => {
+                    let cut = step < before.next_step;
+                    self.state.next_step =
+                        if cut { before.next_step.max(step * grows) } else { step * grows };
+                    iterations += taken.iterations;
+                    return Ok(self.report(Taken { iterations, ..taken }, step, tries));
+                }
+                Err(failure) if step < SHORTEST * self.settings.time_step => {
+                    self.state = before;
+                    return Err(failure);
+                }
+                Ok(taken) if step < SHORTEST * self.settings.time_step => {
+                    self.state.clone_from(&before);
+                    let history = vec![taken.residual, error];
+                    return Err(StepFailure::NotConverged { time: before.time, step, history });
+                }
+                made => iterations += made.map_or(0, |taken| taken.iterations),
+            }
+            self.state.clone_from(&before);
+            step *= grows.min(SAFETY);
+        }
+        unreachable!("steps are shortened until they are too short")
+    }
+
+    /// How much a step of the method of order 4 moves frames otherwise than the one of order 3 in it: turns in rad, and shifts over the longest rod's
+    /// length.
+    fn local_error(&self) -> f64 {
+        let frames = self.state.poses.len();
+        let size = self.assembly.size();
+        let rates = &self.work.coordinate_rates;
+        let error = (0..frames).map(|frame| {
+            let terms = SDIRK4_ERROR.iter().enumerate();
+            let apart = terms.fold(Vec6::ZERO, |sum, (stage, weight)| {
+                sum + rates.get(stage * frames + frame).map_or(Vec6::ZERO, |rate| *rate * *weight)
+            });
+            let shift = if size > 0.0 { apart.linear.norm() / size } else { apart.linear.norm() };
+            larger(apart.angular.norm(), shift)
+        });
+        error.fold(0.0, larger) * self.work.step
+    }
+
+    fn report(&self, taken: Taken, seconds: f64, pieces: usize) -> Step {
+        let Taken { iterations, residual } = taken;
+        Step { time: self.state.time, seconds, iterations, residual, pieces }
+    }
+
+    fn piece(&mut self, integrator: Integrator, held: &Held, piece: Piece) -> Result<Taken, StepFailure> {
+        match integrator {
+            Integrator::ImplicitEuler => self.runge_kutta(&IMPLICIT_EULER, held, piece),
+            Integrator::Sdirk4 => self.runge_kutta(&SDIRK4, held, piece),
+            Integrator::Midpoint => self.midpoint(held, piece.begin + 0.5 * piece.length, piece.length),
+            Integrator::Bdf2 | Integrator::GeneralizedAlpha { .. } if !self.looks_back(integrator) => {
+                let (poses, momenta) = (self.state.poses.clone(), self.state.momenta.clone());
+                let taken = self.runge_kutta(&SDIRK4, held, piece)?;
+                self.look_back_on(integrator, poses, momenta);
+                Ok(taken)
+            }
+            Integrator::Bdf2 => self.bdf2(held),
+            Integrator::GeneralizedAlpha { spectral_radius } => self.generalized_alpha(spectral_radius, held),
+        }
+    }
+
+    /// Whether there is what the integrator looks back on.
+    fn looks_back(&self, integrator: Integrator) -> bool {
+        match self.state.past {
+            Past::None => false,
+            Past::Before { .. } => integrator == Integrator::Bdf2,
+            Past::Rates { .. } => matches!(integrator, Integrator::GeneralizedAlpha { .. }),
+        }
+    }
+
+    /// After a step of another kind, gives the integrator what it looks back on.
+    fn look_back_on(&mut self, integrator: Integrator, poses: Vec<Pose>, momenta: Vec<Wrench>) {
+        self.state.past = match integrator {
+            Integrator::Bdf2 => Past::Before { poses, momenta },
+            Integrator::GeneralizedAlpha { .. } => {
+                let momentum: Vec<Wrench> = self.work.stage.momentum_rates().collect();
+                Past::Rates {
+                    mean_velocity: self.state.velocities.clone(),
+                    mean_momentum: momentum.clone(),
+                    momentum,
+                }
+            }
+            Integrator::ImplicitEuler | Integrator::Midpoint | Integrator::Sdirk4 => Past::None,
+        };
+    }
+
+    fn runge_kutta(&mut self, method: &RungeKutta, held: &Held, piece: Piece) -> Result<Taken, StepFailure> {
+        let (h, frames) = (self.work.step * piece.length, self.state.poses.len());
+        let (mut taken, mut lost) = (Taken::default(), Power::default());
+        self.work.coordinate_rates.clear();
+        self.work.momentum_rates.clear();
+        self.work.stage.begin(&self.state);
+        for (number, before) in method.before.iter().enumerate() {
+            held.at(piece.begin + method.time(number) * piece.length, self);
+            let Work { stage, coordinate_rates, momentum_rates, poses, .. } = &mut self.work;
+            stage.set_up(method.diagonal * h, &self.state);
+            let rates = coordinate_rates.chunks(frames).zip(momentum_rates.chunks(frames));
+            for (a, (coordinates, momenta)) in before.iter().zip(rates) {
+                stage.add_history(a * h, coordinates, momenta);
+            }
+            match number.checked_sub(1) {
+                None => stage.predict(&self.state.velocities, poses),
+                Some(last) => stage.predict(&coordinate_rates[last * frames..], poses),
+            }
+            taken.add(self.solve_stage()?);
+            let Work { stage, coordinate_rates, momentum_rates, .. } = &mut self.work;
+            coordinate_rates.extend_from_slice(&stage.coordinate_rates);
+            momentum_rates.extend(stage.momentum_rates());
+            self.state.power = self.power();
+            lost.add(self.state.power, method.weight(number) * h);
+        }
+        self.take(lost, h);
+        Ok(taken)
+    }
+
+    fn bdf2(&mut self, held: &Held) -> Result<Taken, StepFailure> {
+        held.at(1.0, self);
+        let h = self.work.step;
+        let Work { stage, poses: guess, .. } = &mut self.work;
+        stage.begin(&self.state);
+        stage.set_up(2.0 / 3.0 * h, &self.state);
+        if let Past::Before { poses, momenta } = &self.state.past {
+            stage.look_back(poses, momenta);
+        }
+        stage.predict(&self.state.velocities, guess);
+        let taken = self.solve_stage()?;
+        let lost = self.trapezoid(h);
+        let state = &mut self.state;
+        if let Past::Before { poses, momenta } = &mut state.past {
+            poses.copy_from_slice(&state.poses);
+            momenta.copy_from_slice(&state.momenta);
+        }
+        self.take(lost, h);
+        Ok(taken)
+    }
+
+    fn generalized_alpha(&mut self, radius: f64, held: &Held) -> Result<Taken, StepFailure> {
+        held.at(1.0, self);
+        // The `α_m` and `α_f` of Jansen, Whiting & Hulbert are one less these.
+        let alpha_m = (3.0 * radius - 1.0) / (2.0 * (1.0 + radius));
+        let alpha_f = radius / (1.0 + radius);
+        let gamma = 0.5 - alpha_m + alpha_f;
+        let h = self.work.step;
+        let of_now = gamma / (1.0 - alpha_m);
+        let Work { stage, poses, .. } = &mut self.work;
+        stage.begin(&self.state);
+        stage.set_up(of_now * (1.0 - alpha_f) * h, &self.state);
+        if let Past::Rates { momentum, mean_velocity, mean_momentum } = &self.state.past {
+            stage.add_history(h * (1.0 - gamma - of_now * alpha_m), mean_velocity, mean_momentum);
+            stage.add_history(h * of_now * alpha_f, &self.state.velocities, momentum);
+        }
+        stage.predict(&self.state.velocities, poses);
+        let taken = self.solve_stage()?;
+        let lost = self.trapezoid(h);
+        let Self { state, work: Work { stage, poses, .. }, .. } = self;
+        let mean = |now: Vec6, before: Vec6, mean: Vec6| {
+            (now * (1.0 - alpha_f) + before * alpha_f - mean * alpha_m) * (1.0 / (1.0 - alpha_m))
+        };
+        if let Past::Rates { momentum, mean_velocity, mean_momentum } = &mut state.past {
+            for (i, rate) in stage.momentum_rates().enumerate() {
+                let velocity = mean(stage.coordinate_rates[i], state.velocities[i], mean_velocity[i]);
+                mean_velocity[i] = stage.turned_with(i, &poses[i], velocity);
+                mean_momentum[i] = mean(rate, momentum[i], mean_momentum[i]);
+                momentum[i] = rate;
+            }
+        }
+        self.take(lost, h);
+        Ok(taken)
+    }
+
+    /// The energy that goes in a step that looks at its end alone, by what went at the end of the one before.
+    fn trapezoid(&mut self, h: f64) -> Power {
+        let mut lost = Power::default();
+        lost.add(self.state.power, 0.5 * h);
+        self.state.power = self.power();
+        lost.add(self.state.power, 0.5 * h);
+        lost
+    }
+
+    /// Ends a step, or a piece of it, where its last stage is.
+    pub(super) fn take(&mut self, lost: Power, seconds: f64) {
+        let Self { state, work: Work { groups, stage, poses, .. }, assembly, .. } = self;
+        state.poses.copy_from_slice(poses);
+        for RodSystem { rod, record, .. } in groups.iter().flat_map(|group| &group.rods) {
+            state.wrenches[assembly.elements(*rod)].copy_from_slice(&record.wrenches);
+        }
+        state.velocities.copy_from_slice(&stage.velocities);
+        state.momenta.copy_from_slice(&stage.momenta);
+        state.dissipated += lost.dissipated;
+        state.worked += lost.worked;
+        state.time += seconds;
+    }
+}
