@@ -62,7 +62,7 @@ impl Held {
         Self { moving, step: simulation.work.step }
     }
 
-    /// Puts all where they are when a part of the step is over.
+    /// Puts all where they are when a part of the step is over, for the stage that has been set up.
     pub fn at(&self, part: f64, simulation: &mut Simulation) {
         self.put(part, simulation, true);
     }
@@ -73,7 +73,7 @@ impl Held {
     }
 
     fn put(&self, part: f64, simulation: &mut Simulation, as_planned: bool) {
-        let Simulation { assembly, state, .. } = simulation;
+        let Simulation { assembly, state, work, .. } = simulation;
         for moving in &self.moving {
             let frame = assembly.frame(moving.member).unwrap_or_default();
             let planned = assembly.moving.iter().find(|keyframes| keyframes.member == moving.member);
@@ -83,9 +83,12 @@ impl Held {
             let moved = || between.compose(&moving.to.inverse()).compose(&moving.target);
             support.pose = planned.filter(|_| as_planned).unwrap_or_else(moved);
             if let (Some(hand), Some(grip)) = (&moving.hand, &mut support.grip) {
-                grip.hand = part_of_the_way(&hand.before, &hand.target, part);
-                let time_step = part * self.step;
-                grip.last = Some(LastFrame { hand: hand.before, held: state.poses[frame], time_step });
+                // The damper looks back to where the frame would be, were its rate of this stage nought.
+                let (held, since) = work.stage.without_rate(frame);
+                let hand_at = |part: f64| part_of_the_way(&hand.before, &hand.target, part);
+                grip.hand = hand_at(part);
+                grip.last =
+                    Some(LastFrame { hand: hand_at(part - since / self.step), held, time_step: since });
             }
         }
     }

@@ -155,11 +155,12 @@ fn over(x: Vec6, compliance: Vec6) -> Vec6 {
 impl Simulation {
     /// A piece of a step, of which the middle and the length are given over the whole.
     pub(super) fn midpoint(&mut self, held: &Held, middle: f64, length: f64) -> Result<Taken, StepFailure> {
-        held.halfway(middle, self);
         let step = self.work.step * length;
-        let Work { stage, poses, .. } = &mut self.work;
+        let stage = &mut self.work.stage;
         stage.begin(&self.state);
         stage.set_up(0.5 * step, &self.state);
+        held.halfway(middle, self);
+        let Work { stage, poses, .. } = &mut self.work;
         stage.middle = true;
         stage.velocities_before.clone_from(&self.state.velocities);
         stage.predict(&self.state.velocities, poses);

@@ -89,6 +89,11 @@ impl Stage {
         }
     }
 
+    /// Where a frame would be without a rate, and how much a rate counts, s.
+    pub fn without_rate(&self, frame: usize) -> (Pose, f64) {
+        (at_coordinates(&self.base[frame], self.offsets[frame]), self.of_rate)
+    }
+
     /// How a frame moves in the stage.
     pub fn velocity(&self, frame: usize) -> Vec6 {
         let velocity = self.velocities[frame];

@@ -220,13 +220,14 @@ impl Simulation {
         self.work.momentum_rates.clear();
         self.work.stage.begin(&self.state);
         for (number, before) in method.before.iter().enumerate() {
-            held.at(piece.begin + method.time(number) * piece.length, self);
-            let Work { stage, coordinate_rates, momentum_rates, poses, .. } = &mut self.work;
+            let Work { stage, coordinate_rates, momentum_rates, .. } = &mut self.work;
             stage.set_up(method.diagonal * h, &self.state);
             let rates = coordinate_rates.chunks(frames).zip(momentum_rates.chunks(frames));
             for (a, (coordinates, momenta)) in before.iter().zip(rates) {
                 stage.add_history(a * h, coordinates, momenta);
             }
+            held.at(piece.begin + method.time(number) * piece.length, self);
+            let Work { stage, coordinate_rates, poses, .. } = &mut self.work;
             match number.checked_sub(1) {
                 None => stage.predict(&self.state.velocities, poses),
                 Some(last) => stage.predict(&coordinate_rates[last * frames..], poses),
@@ -243,15 +244,16 @@ impl Simulation {
     }
 
     fn bdf2(&mut self, held: &Held) -> Result<Taken, StepFailure> {
-        held.at(1.0, self);
         let h = self.work.step;
-        let Work { stage, poses: guess, .. } = &mut self.work;
+        let stage = &mut self.work.stage;
         stage.begin(&self.state);
         stage.set_up(2.0 / 3.0 * h, &self.state);
         if let Past::Before { poses, momenta } = &self.state.past {
             stage.look_back(poses, momenta);
         }
-        stage.predict(&self.state.velocities, guess);
+        held.at(1.0, self);
+        let Work { stage, poses, .. } = &mut self.work;
+        stage.predict(&self.state.velocities, poses);
         let taken = self.solve_stage()?;
         let lost = self.trapezoid(h);
         let state = &mut self.state;
@@ -264,20 +266,21 @@ impl Simulation {
     }
 
     fn generalized_alpha(&mut self, radius: f64, held: &Held) -> Result<Taken, StepFailure> {
-        held.at(1.0, self);
         // The `α_m` and `α_f` of Jansen, Whiting & Hulbert are one less these.
         let alpha_m = (3.0 * radius - 1.0) / (2.0 * (1.0 + radius));
         let alpha_f = radius / (1.0 + radius);
         let gamma = 0.5 - alpha_m + alpha_f;
         let h = self.work.step;
         let of_now = gamma / (1.0 - alpha_m);
-        let Work { stage, poses, .. } = &mut self.work;
+        let stage = &mut self.work.stage;
         stage.begin(&self.state);
         stage.set_up(of_now * (1.0 - alpha_f) * h, &self.state);
         if let Past::Rates { momentum, mean_velocity, mean_momentum } = &self.state.past {
             stage.add_history(h * (1.0 - gamma - of_now * alpha_m), mean_velocity, mean_momentum);
             stage.add_history(h * of_now * alpha_f, &self.state.velocities, momentum);
         }
+        held.at(1.0, self);
+        let Work { stage, poses, .. } = &mut self.work;
         stage.predict(&self.state.velocities, poses);
         let taken = self.solve_stage()?;
         let lost = self.trapezoid(h);

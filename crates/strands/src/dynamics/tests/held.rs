@@ -73,8 +73,10 @@ fn a_support_goes_where_its_keyframes_say_and_works() {
         // All that the support has put in is in the rod, or has been taken out.
         let energy = simulation.energy();
         assert!(energy.worked > 0.0 && energy.kinetic > 0.0);
-        let missing = energy.total().abs() / energy.worked;
-        assert!(missing < 0.05, "{}: {missing} of {energy:?}", integrator.name());
+        // Its jerk goes into waves that are faster than the steps: those that lose what is fast take them.
+        let change = energy.total() / energy.worked;
+        let (gained, lost) = if integrator == Integrator::Midpoint { (1e-7, 1e-7) } else { (0.02, 0.25) };
+        assert!(change < gained && change > -lost, "{}: {change} of {energy:?}", integrator.name());
         simulation.advance(4.0).unwrap();
         for (pose, rest) in simulation.state().poses.iter().zip(&rest) {
             let expected = to.compose(rest);
@@ -94,17 +96,15 @@ fn a_node_is_grasped_lifted_and_let_go() {
         };
         for step in 1..=100 {
             hold(&mut simulation, 1e-4 * f64::from(step));
-            let st = simulation.step().unwrap();
-            if step < 4 || st.pieces > 1 { println!("DBG {} {step} {st:?} {:?}", integrator.name(), simulation.energy()); }
+            simulation.step().unwrap();
         }
         let held = simulation.state().poses[20];
         assert!((held.position - (there.position - Vec3::X * 0.01)).norm() < 1e-12);
         assert!(simulation.reaction(Member::Node { rod: 0, node: 20 }).linear.x < 0.0, "it bears weight");
         simulation.assembly_mut().strands[0].problem.between.clear();
         let before = simulation.energy();
-        for k in 0..100 {
-            let st = simulation.step().unwrap();
-            if k < 4 || st.pieces > 1 { println!("DBG {} {k} {st:?} {:?}", integrator.name(), simulation.energy()); }
+        for _ in 0..100 {
+            simulation.step().unwrap();
         }
         let after = simulation.energy();
         let moved = (simulation.state().poses[20].position - held.position).norm();
@@ -114,7 +114,6 @@ fn a_node_is_grasped_lifted_and_let_go() {
             Integrator::Midpoint => (1e-6, 1e-6),
             _ => (1e-2, 1.0),
         };
-        println!("{} {change}", integrator.name());
         assert!(moved > 1e-3, "{}: {moved}", integrator.name());
         assert!(change < gained && change > -lost, "{}: {change}", integrator.name());
     }
@@ -181,8 +180,7 @@ fn steps_are_as_long_as_their_error_allows() {
     for allowed in [1e-3, 1e-4, 1e-5] {
         let (chosen, tries) = tip(Settings { time_step: 0.1, local_error: Some(allowed), ..equal });
         let error = (chosen - exact).norm() / 0.1;
-        println!("{allowed:e}: {error:e} in {tries} steps");
-        assert!(error < 30.0 * allowed, "{allowed:e}: {error:e} in {tries} steps");
+        assert!(error < 3.0 * allowed, "{allowed:e}: {error:e} in {tries} steps");
         assert!(tries > last, "{allowed:e}: {tries} steps");
         last = tries;
     }

@@ -322,12 +322,9 @@ fn the_midpoint_rule_keeps_energy_and_momentum() {
     simulation.set_velocities(&(0..=10).map(velocity).collect::<Vec<_>>());
     let began = simulation.energy().total();
     let (momentum, angular) = simulation.momentum();
-    let (mut drift, mut most, mut iterations): (f64, f64, usize) = (0.0, 0.0, 0);
-    for step in 0..100_000 {
-        match simulation.step() {
-            Ok(taken) => iterations += taken.iterations,
-            Err(failure) => panic!("step {step}: {failure}"),
-        }
+    let (mut drift, mut most): (f64, f64) = (0.0, 0.0);
+    for _ in 0..100_000 {
+        simulation.step().unwrap();
         let energy = simulation.energy();
         most = most.max(energy.elastic / began);
         drift = drift.max((energy.total() / began - 1.0).abs());
@@ -335,9 +332,6 @@ fn the_midpoint_rule_keeps_energy_and_momentum() {
     let (later, turned) = simulation.momentum();
     let lost = (later - momentum).norm() / momentum.norm();
     let lost_angular = (turned - angular).norm() / angular.norm();
-    println!(
-        "drift {drift:e}, momentum {lost:e}, angular {lost_angular:e}, elastic {most}, {iterations} iterations"
-    );
     assert!(most > 0.05, "it vibrates: {most}");
     assert!(drift < 1e-6 && lost < 1e-10 && lost_angular < 1e-10, "{drift:e} {lost:e} {lost_angular:e}");
 }

@@ -172,11 +172,11 @@ fn the_midpoint_rule_keeps_the_energy_of_rods_that_joints_tie() {
 fn a_step_that_is_not_solved_at_once_is_cut_into_pieces() {
     let mut held = mobile();
     held.strands[0] = clamped(held.strands[0].clone());
-    let settings = Settings { integrator: Integrator::Sdirk4, time_step: 4e-3, ..Settings::default() };
+    let settings = Settings { integrator: Integrator::Bdf2, time_step: 3e-2, ..Settings::default() };
     let mut simulation = Simulation::new(held, settings, Start::Rest).unwrap();
     let pieces: Vec<usize> = (0..50).map(|_| simulation.step().unwrap().pieces).collect();
     assert!(pieces.iter().any(|pieces| *pieces > 1), "{pieces:?}");
-    assert!((simulation.state().time - 0.2).abs() < 1e-12);
+    assert!((simulation.state().time - 1.5).abs() < 1e-12);
 }
 
 #[test]
