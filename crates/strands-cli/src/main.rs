@@ -4,6 +4,7 @@ mod args;
 mod bench;
 mod check;
 mod drawing;
+mod ending;
 mod many;
 mod new;
 mod overrides;

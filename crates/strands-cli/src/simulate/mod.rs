@@ -1,23 +1,23 @@
 //! `strands simulate`: lets the rods of a scene move in time.
 
-use std::fmt::Write;
-use std::path::Path;
+mod output;
+mod table;
+
+use std::path::PathBuf;
 use std::time::Instant;
 
 use strands::dynamics::{Damping, Integrator, Settings, Simulation, Start};
-use strands_scene::write::{Frame, Moved, motion_csv, motion_json};
+use strands_scene::write::{End, Frame, FrameEnergy, MovedRod, Ran, motion_json};
 use strands_scene::{DynamicsFile, IntegratorName, MeshChoice, Model};
 
 use crate::args::Simulate;
-use crate::units::engineering;
 use crate::{Failure, overrides, say, source};
+use output::Format;
 
 /// What a scene leaves out.
 const TIME_STEP: f64 = 1e-3;
 const DURATION: f64 = 1.0;
 const OUTPUT_RATE: f64 = 60.0;
-/// Rows of the table.
-const ROWS: usize = 24;
 
 /// How a scene is simulated.
 struct Plan {
@@ -32,7 +32,7 @@ struct Plan {
 struct Run {
     frames: Vec<Frame>,
     steps: usize,
-    failure: Option<String>,
+    end: End,
     /// How long the steps took, s.
     seconds: f64,
 }
@@ -42,38 +42,30 @@ struct Run {
 /// # Errors
 /// Bad arguments, scenes and files; and, once everything is said and written, a step that could not be made.
 pub fn run(options: &Simulate) -> Result<(), Failure> {
-    for path in &options.output {
-        ending(path)?;
-    }
+    let outputs: Vec<(&PathBuf, Format)> =
+        options.output.iter().map(|path| Ok((path, Format::of(path)?))).collect::<Result<_, Failure>>()?;
     let mut source = source::read(&options.scene)?;
     source.text =
         overrides::apply(&source.text, source.is_json(), &options.overrides).map_err(Failure::bad)?;
     let model = source.parse()?.model;
     let plan = Plan::new(options, &model.dynamics)?;
-    let run = simulated(&model, &plan)?;
-    let time_step = plan.settings.time_step;
-    let factor = run.steps as f64 * time_step / run.seconds;
-    let json = || motion_json(&model, &run.frames, run.steps, factor, run.failure.as_deref());
-    for path in &options.output {
-        let text = if ending(path)? == "csv" { motion_csv(&model, &run.frames) } else { json() };
-        std::fs::write(path, text).map_err(|error| Failure::file(path.display(), &error))?;
+    let mut rods = started(&model, &plan)?;
+    let Run { frames, steps, end, seconds } = stepped(&model, &plan, &mut rods);
+    let simulated = steps as f64 * plan.settings.time_step;
+    let real_time_factor = if steps == 0 { 0.0 } else { simulated / seconds };
+    let ran = Ran { steps, real_time_factor, end };
+    for (path, format) in outputs {
+        format.write(path, &model, &frames, &ran)?;
     }
     if options.json {
-        say(&json())?;
+        say(&motion_json(&model, &frames, &ran))?;
     } else {
-        say(summary(&model, &plan, &run, factor).trim_end())?;
+        say(table::table(&model, &plan.settings, &frames, &ran).trim_end())?;
     }
-    if run.failure.is_some() { Err(Failure::Unsolved) } else { Ok(()) }
-}
-
-fn ending(path: &Path) -> Result<&str, Failure> {
-    let ending = path.extension().and_then(|ending| ending.to_str());
-    ending.filter(|ending| ["json", "csv"].contains(ending)).ok_or_else(|| {
-        Failure::bad(format!(
-            "{}: frames are written by the file's ending, one of .json .csv",
-            path.display()
-        ))
-    })
+    match ran.end {
+        End::Failed(_) => Err(Failure::Unsolved),
+        End::Finished | End::Interrupted => Ok(()),
+    }
 }
 
 impl Plan {
@@ -84,7 +76,8 @@ impl Plan {
             IntegratorName::Sdirk4 => Integrator::Sdirk4,
             name @ (IntegratorName::GeneralizedAlpha | IntegratorName::Midpoint) => {
                 return Err(Failure::bad(format!(
-                    "dynamics.integrator: {name:?} is not there yet; use \"bdf2\", \"sdirk4\" or \"implicit_euler\""
+                    "dynamics.integrator: {} is not there yet; use \"bdf2\", \"sdirk4\" or \"implicit_euler\"",
+                    serde_json::json!(name)
                 )));
             }
         };
@@ -115,7 +108,8 @@ impl Plan {
     }
 }
 
-fn simulated(model: &Model, plan: &Plan) -> Result<Run, Failure> {
+/// The rods where they start.
+fn started(model: &Model, plan: &Plan) -> Result<Vec<Simulation>, Failure> {
     let mut rods = Vec::with_capacity(model.rods.len());
     for rod in &model.rods {
         if matches!(rod.mesh, MeshChoice::Tolerance(_)) {
@@ -130,13 +124,12 @@ fn simulated(model: &Model, plan: &Plan) -> Result<Run, Failure> {
             .map_err(|error| Failure::bad(format!("rod `{}`: {error}", rod.name)))?;
         rods.push(rod);
     }
-    let frame = |rods: &[Simulation], iterations, residual| Frame {
-        time: rods[0].state().time,
-        rods: rods.iter().map(|rod| Moved { state: rod.state().clone(), energy: rod.energy() }).collect(),
-        iterations,
-        residual,
-    };
-    let mut run = Run { frames: vec![frame(&rods, 0, 0.0)], steps: 0, failure: None, seconds: 0.0 };
+    Ok(rods)
+}
+
+/// Steps until it is done or a step cannot be made.
+fn stepped(model: &Model, plan: &Plan, rods: &mut [Simulation]) -> Run {
+    let mut run = Run { frames: vec![frame(rods, 0, 0.0)], steps: 0, end: End::Finished, seconds: 0.0 };
     let (mut iterations, mut residual): (usize, f64) = (0, 0.0);
     while run.steps < plan.steps {
         let began = Instant::now();
@@ -147,72 +140,43 @@ fn simulated(model: &Model, plan: &Plan) -> Result<Run, Failure> {
                     residual = residual.max(step.residual);
                 }
                 Err(failure) => {
-                    run.failure =
-                        Some(format!("rod `{}`: {failure}; a shorter time_step may be solved", of.name));
-                    return Ok(run);
+                    let why = format!("rod `{}`: {failure}; a shorter time_step may be solved", of.name);
+                    run.end = End::Failed(why);
+                    return run;
                 }
             }
         }
         run.seconds += began.elapsed().as_secs_f64();
         run.steps += 1;
-        // The frame that is nearest to its time.
+        // The frame that is nearest to its time, and the last.
         let due = (run.frames.len() as f64 * plan.every).round() as usize;
         if run.steps == due || run.steps == plan.steps {
-            run.frames.push(frame(&rods, iterations, residual));
+            run.frames.push(frame(rods, iterations, residual));
             (iterations, residual) = (0, 0.0);
         }
     }
-    Ok(run)
+    run
 }
 
-fn summary(model: &Model, plan: &Plan, run: &Run, factor: f64) -> String {
-    let mut out = format!("{}\n", model.name);
-    let header = ["time", "kinetic", "elastic", "of loads", "dissipated"];
-    let [time, kinetic, elastic, load, dissipated] = header;
-    let _ = writeln!(
-        out,
-        "  {time:>10}  {kinetic:>11}  {elastic:>11}  {load:>11}  {dissipated:>11}  end of {}, m",
-        model.rods[0].name
-    );
-    let each = run.frames.len().div_ceil(ROWS);
-    for (i, frame) in run.frames.iter().enumerate() {
-        if i % each != 0 && i + 1 != run.frames.len() {
-            continue;
-        }
-        let energy = |of: fn(&Moved) -> f64| engineering(frame.rods.iter().map(of).sum(), "J");
-        let poses = &frame.rods[0].state.poses;
-        let end = poses[poses.len() - 1].position;
-        let _ = writeln!(
-            out,
-            "  {:>8.4} s  {:>11}  {:>11}  {:>11}  {:>11}  ({:.4}, {:.4}, {:.4})",
-            frame.time,
-            energy(|rod| rod.energy.kinetic),
-            energy(|rod| rod.energy.elastic),
-            energy(|rod| rod.energy.load),
-            energy(|rod| rod.energy.dissipated),
-            end.x,
-            end.y,
-            end.z
-        );
+/// How the rods move now.
+fn frame(rods: &[Simulation], iterations: usize, residual: f64) -> Frame {
+    let mut energy = FrameEnergy::default();
+    for budget in rods.iter().map(Simulation::energy) {
+        energy.kinetic += budget.kinetic;
+        energy.elastic += budget.elastic;
+        energy.load += budget.load;
+        energy.dissipated += budget.dissipated;
     }
-    let _ = writeln!(
-        out,
-        "  {} steps of {} by {}, {} a step: {factor:.1} times as fast as real time",
-        run.steps,
-        engineering(plan.settings.time_step, "s"),
-        plan.settings.integrator.name(),
-        engineering(run.seconds / run.steps.max(1) as f64, "s")
-    );
-    let total = |frame: &Frame| frame.rods.iter().map(|rod| rod.energy.total()).sum::<f64>();
-    let taken = total(&run.frames[0]) - total(&run.frames[run.frames.len() - 1]);
-    let _ = writeln!(
-        out,
-        "  {} of energy {} by the integrator",
-        engineering(taken.abs(), "J"),
-        if taken < 0.0 { "added" } else { "taken" }
-    );
-    if let Some(failure) = &run.failure {
-        let _ = writeln!(out, "  failed: {failure}");
+    let moved = |rod: &Simulation| {
+        let state = rod.state();
+        MovedRod::new(&rod.problem().rod, &state.poses, &state.velocities, &state.wrenches)
+    };
+    Frame {
+        time: rods[0].state().time,
+        rods: rods.iter().map(moved).collect(),
+        bodies: Vec::new(),
+        energy,
+        iterations,
+        residual,
     }
-    out
 }

@@ -29,6 +29,9 @@ fn frames_are_what_was_promised() {
     for key in ["s", "position", "orientation", "velocity", "angular_velocity"] {
         assert_eq!(beam[key].as_array().unwrap().len(), 41, "{key}");
     }
+    for key in ["strain", "stress"] {
+        assert_eq!(beam[key].as_array().unwrap().len(), 40, "{key}");
+    }
     assert!(beam["velocity"][40][2].as_f64().unwrap() < -0.1, "it falls");
 }
 
@@ -42,6 +45,32 @@ fn a_rod_starts_in_equilibrium_and_stays() {
 }
 
 #[test]
+fn a_rod_in_equilibrium_bears_what_a_solve_says() {
+    for kinematics in ["cosserat", "kirchhoff"] {
+        let kinematics = format!("rods.beam.kinematics=\"{kinematics}\"");
+        let scene = ["cantilever.toml", "--set", &kinematics, "--json"];
+        let answer = |run: crate::common::Run| serde_json::from_str::<Value>(&run.out).unwrap();
+        let solved = answer(strands(&[["solve"].as_slice(), &scene].concat()));
+        let moved = answer(strands(&[["simulate", "--seconds", "0.001"].as_slice(), &scene].concat()));
+        for (key, scale) in [("strain", 1.0), ("stress", 1e-2)] {
+            let [solved, moved] = [&solved, &moved["frames"][0]].map(|at| numbers(&at["rods"]["beam"][key]));
+            assert_eq!(solved.len(), 6 * 40);
+            for (solved, moved) in solved.iter().zip(&moved) {
+                assert!((solved - moved).abs() < 1e-7 * scale, "{kinematics}, {key}: {solved} {moved}");
+            }
+        }
+    }
+}
+
+/// All numbers of nested arrays.
+fn numbers(value: &Value) -> Vec<f64> {
+    match value.as_array() {
+        Some(array) => array.iter().flat_map(numbers).collect(),
+        None => vec![value.as_f64().unwrap()],
+    }
+}
+
+#[test]
 fn a_table_says_how_it_went_and_files_are_written() {
     let file = folder("simulate").join("fall.csv");
     let output = ["--seconds", "0.05", "-o", file.to_str().unwrap()];
@@ -50,14 +79,16 @@ fn a_table_says_how_it_went_and_files_are_written() {
     assert!(run.out.contains("50 steps of 1.000 ms by bdf2"), "{}", run.out);
     assert!(run.out.contains("times as fast as real time"), "{}", run.out);
     let csv = std::fs::read_to_string(&file).unwrap();
-    assert!(csv.starts_with("t,rod,s,x,y,z,qw,qx,qy,qz,vx,vy,vz,wx,wy,wz\n0,beam,0,"), "{csv:.100}");
+    let columns = "t,rod,s,x,y,z,qw,qx,qy,qz,vx,vy,vz,wx,wy,wz,kappa1,kappa2,tau,v1,v2,v3,m1,m2,m3,n1,n2,n3";
+    assert!(csv.starts_with(&format!("{columns}\n0.0,beam,0.0,")), "{csv:.200}");
     assert_eq!((csv.lines().count() - 1) % 41, 0);
+    assert!(csv.lines().nth(41).unwrap().ends_with(",,,,,,,,,,,,"), "the last node begins no element");
 }
 
 #[test]
 fn what_cannot_be_simulated_is_said() {
     for (set, said) in [
-        ("dynamics.integrator=\"midpoint\"", "is not there yet"),
+        ("dynamics.integrator=\"midpoint\"", "\"midpoint\" is not there yet"),
         ("dynamics.start=\"there\"", "neither \"equilibrium\" nor \"rest\""),
         ("dynamics.tolerance=1e-3", "give `time_step`"),
         ("solver.order=4", "order 2"),
@@ -68,5 +99,21 @@ fn what_cannot_be_simulated_is_said() {
         assert!(run.err.contains(said), "{}", run.err);
     }
     let run = strands(&["simulate", "cantilever.toml", "-o", "fall.vtp"]);
-    assert!(run.code == 1 && run.err.contains(".json .csv"), "{}", run.err);
+    assert!(run.code == 1 && run.err.contains(".json .csv .npz .pvd .usda .glb"), "{}", run.err);
+}
+
+#[test]
+fn a_collection_has_its_files_in_a_folder_beside_it() {
+    let folder = folder("simulate-pvd");
+    let file = folder.join("fall.of.beam.pvd");
+    let output = ["--seconds", "0.05", "--every", "0.025", "-o", file.to_str().unwrap()];
+    let run = strands(&[FALL.as_slice(), &output].concat());
+    assert_eq!((run.code, run.err.as_str()), (0, ""));
+    let collection = std::fs::read_to_string(&file).unwrap();
+    let parts: Vec<&str> =
+        collection.split("file=\"").skip(1).map(|rest| rest.split('"').next().unwrap()).collect();
+    assert_eq!(parts, [0, 1, 2].map(|frame| format!("fall.of.beam/beam_{frame}.vtp")));
+    for part in parts {
+        assert!(std::fs::read_to_string(folder.join(part)).unwrap().contains("\"velocity\""));
+    }
 }

@@ -1,18 +1,37 @@
-//! The answer of a simulation: frames in time.
+//! A simulation: frames in time, one format a module.
 
-use super::csv::table;
+mod csv;
+mod glb;
+mod json;
+mod npz;
+mod pvd;
+mod usda;
+
+pub use csv::motion_csv;
+pub use glb::{TooManyNodes, motion_glb};
+pub use json::{End, Ran, motion_json};
+pub use npz::motion_npz;
+pub use pvd::motion_pvd;
+pub use usda::motion_usda;
+
+use super::Shape;
 use crate::model::Model;
-use serde_json::{Map, Value, json as value};
-use strands::dynamics::{Budget, State};
+use strands::math::{Pose, Strain, Stress, Vec6, Wrench};
+use strands::rod::Rod;
+use strands::statics::Reaction;
 
-/// The rods of a scene at one time.
+/// A scene at one time.
 #[derive(Clone, Debug)]
 pub struct Frame {
     /// The time, s.
     pub time: f64,
     /// The rods, in the scene's order.
-    pub rods: Vec<Moved>,
-    /// Newton iterations since the frame before, of all rods together.
+    pub rods: Vec<MovedRod>,
+    /// The rigid bodies, the same ones in every frame.
+    pub bodies: Vec<MovedBody>,
+    /// Where the energy of all of them is.
+    pub energy: FrameEnergy,
+    /// Newton iterations since the frame before, of all together.
     pub iterations: usize,
     /// The largest residual since then.
     pub residual: f64,
@@ -20,85 +39,67 @@ pub struct Frame {
 
 /// A rod at one time.
 #[derive(Clone, Debug)]
-pub struct Moved {
-    /// How it moves.
-    pub state: State,
-    /// Where its energy is.
-    pub energy: Budget,
+pub struct MovedRod {
+    /// The frames of the nodes.
+    pub poses: Vec<Pose>,
+    /// How the nodes turn, in their own axes, rad/s, and shift in the world, m/s.
+    pub velocities: Vec<Vec6>,
+    /// The strains of the elements, body frame.
+    pub strain: Vec<Strain>,
+    /// The stresses of the elements, body frame.
+    pub stress: Vec<Stress>,
+    /// What its supports exert on it, where that is known.
+    pub reactions: Vec<Reaction>,
 }
 
-/// A simulation as one JSON object: `scene`, `status` ("finished", or "failed" with the `reason`), `steps`, `real_time_factor` (simulated seconds
-/// a second) and `frames`, each with the time `t` (s), the `energy` (J: `kinetic`, `elastic`, `gravity`, which is that of all dead loads, and
-/// `dissipated` since the start) of all rods together, `newton_iterations` and the largest `residual` since the frame before, and `rods`: for each by
-/// its name at the nodes `s` (m), `position` (m), `orientation` (quaternion, w first), `velocity` (m/s, world axes) and `angular_velocity` (rad/s, the
-/// node's own axes).
-pub fn motion_json(
-    model: &Model,
-    frames: &[Frame],
-    steps: usize,
-    real_time_factor: f64,
-    failure: Option<&str>,
-) -> String {
-    let mut answer = Map::new();
-    answer.insert("scene".into(), value!(model.name));
-    answer.insert("status".into(), value!(if failure.is_some() { "failed" } else { "finished" }));
-    if let Some(reason) = failure {
-        answer.insert("reason".into(), value!(reason));
+impl MovedRod {
+    /// A rod whose nodes are at `poses` and move with `velocities` while its elements carry `wrenches` through their far nodes, in those nodes' frames.
+    pub fn new(rod: &Rod, poses: &[Pose], velocities: &[Vec6], wrenches: &[Wrench]) -> Self {
+        let (strain, stress) = rod.strains_and_stresses(poses, wrenches);
+        Self { poses: poses.to_vec(), velocities: velocities.to_vec(), strain, stress, reactions: Vec::new() }
     }
-    answer.insert("steps".into(), value!(steps));
-    answer.insert("real_time_factor".into(), value!(real_time_factor));
-    answer.insert("frames".into(), frames.iter().map(|frame| one(model, frame)).collect());
-    Value::Object(answer).to_string()
 }
 
-fn one(model: &Model, frame: &Frame) -> Value {
-    let sum = |of: fn(&Budget) -> f64| frame.rods.iter().map(|rod| of(&rod.energy)).sum::<f64>();
-    let rods = model.rods.iter().zip(&frame.rods).map(|(rod, moved)| {
-        let State { poses, velocities, .. } = &moved.state;
-        let answer = value!({
-            "s": rod.problem.rod.mesh().nodes(),
-            "position": poses.iter().map(|pose| pose.position.to_array()).collect::<Vec<_>>(),
-            "orientation": poses.iter().map(|pose| pose.orientation().to_wxyz()).collect::<Vec<_>>(),
-            "velocity": velocities.iter().map(|velocity| velocity.linear.to_array()).collect::<Vec<_>>(),
-            "angular_velocity": velocities.iter().map(|velocity| velocity.angular.to_array()).collect::<Vec<_>>(),
-        });
-        (rod.name.clone(), answer)
-    });
-    value!({
-        "t": frame.time,
-        "energy": {
-            "kinetic": sum(|energy| energy.kinetic),
-            "elastic": sum(|energy| energy.elastic),
-            "gravity": sum(|energy| energy.load),
-            "dissipated": sum(|energy| energy.dissipated),
-        },
-        "newton_iterations": frame.iterations,
-        "residual": frame.residual,
-        "rods": Value::Object(rods.collect()),
-    })
+/// A rigid body at one time.
+#[derive(Clone, Debug)]
+pub struct MovedBody {
+    /// Its name, which no rod has.
+    pub name: String,
+    /// Its frame.
+    pub pose: Pose,
+    /// How it turns, in its own axes, rad/s, and shifts in the world, m/s.
+    pub velocity: Vec6,
 }
 
-/// A simulation as CSV, one row a node and frame: `t`, `rod`, `s`, `x` to `z`, `qw` to `qz`, and the velocities `vx` to `vz` (world axes) and `wx` to
-/// `wz` (the node's own axes).
-pub fn motion_csv(model: &Model, frames: &[Frame]) -> String {
-    let columns =
-        ["t", "rod", "s", "x", "y", "z", "qw", "qx", "qy", "qz", "vx", "vy", "vz", "wx", "wy", "wz"];
-    let mut rows = Vec::new();
-    for frame in frames {
-        for (rod, moved) in model.rods.iter().zip(&frame.rods) {
-            for (node, s) in rod.problem.rod.mesh().nodes().iter().enumerate() {
-                let (pose, velocity) = (&moved.state.poses[node], &moved.state.velocities[node]);
-                let numbers = [*s]
-                    .into_iter()
-                    .chain(pose.position.to_array())
-                    .chain(pose.orientation().to_wxyz())
-                    .chain(velocity.linear.to_array())
-                    .chain(velocity.angular.to_array());
-                let mut row = vec![frame.time.to_string(), rod.name.clone()];
-                row.extend(numbers.map(|number| number.to_string()));
-                rows.push(row);
-            }
-        }
+/// Energies of a scene, J.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct FrameEnergy {
+    /// Of its motion.
+    pub kinetic: f64,
+    /// Stored in it.
+    pub elastic: f64,
+    /// Of dead loads and pulls, gravity among them.
+    pub load: f64,
+    /// Taken out of it by damping since the start.
+    pub dissipated: f64,
+    /// Done on it since the start by what has no potential: supports that move, loads that follow. `None` where that is not known.
+    pub work: Option<f64>,
+}
+
+impl FrameEnergy {
+    /// What stays the same where the integrator takes nothing away.
+    pub fn total(&self) -> f64 {
+        self.kinetic + self.elastic + self.load + self.dissipated - self.work.unwrap_or(0.0)
     }
-    table(&columns, rows)
+}
+
+impl Frame {
+    /// The rods in their shapes, with how they move.
+    fn shapes<'a>(&'a self, model: &'a Model) -> impl Iterator<Item = (Shape<'a>, &'a MovedRod)> {
+        assert_eq!(model.rods.len(), self.rods.len(), "a frame has all rods of the model");
+        model.rods.iter().zip(&self.rods).map(|(rod, moved)| {
+            let MovedRod { poses, strain, stress, .. } = moved;
+            (Shape { rod, poses, strain, stress }, moved)
+        })
+    }
 }
