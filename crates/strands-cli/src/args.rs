@@ -110,7 +110,8 @@ duration 1 s, output_rate 60 frames a second, start in equilibrium. `--set dynam
 
 A .pvd comes with a folder beside it, a .vtp a frame and rod. In .glb and .usda the rods move when they are played.
 
-Exit status: 0 finished, 1 bad scene or arguments, 2 a step could not be made; what was simulated until then is written all the same.")]
+Exit status: 0 finished, 1 bad scene or arguments, 2 a step could not be made, 130 ended by Ctrl-C; what was simulated until then is written all the
+same. A second Ctrl-C ends it at once.")]
 pub struct Simulate {
     /// A scene file (.toml or .json), `-` for standard input, or the bare name of a bundled scene
     pub scene: String,

@@ -6,12 +6,13 @@ mod table;
 use std::path::PathBuf;
 use std::time::Instant;
 
+use indicatif::ProgressBar;
 use strands::dynamics::{Damping, Integrator, Settings, Simulation, Start};
 use strands_scene::write::{End, Frame, FrameEnergy, MovedRod, Ran, motion_json};
 use strands_scene::{DynamicsFile, IntegratorName, MeshChoice, Model};
 
 use crate::args::Simulate;
-use crate::{Failure, overrides, say, source};
+use crate::{Failure, interrupt, overrides, progress, say, source};
 use output::Format;
 
 /// What a scene leaves out.
@@ -40,7 +41,7 @@ struct Run {
 /// The command.
 ///
 /// # Errors
-/// Bad arguments, scenes and files; and, once everything is said and written, a step that could not be made.
+/// Bad arguments, scenes and files; and, once everything is said and written, a step that could not be made, or Ctrl-C.
 pub fn run(options: &Simulate) -> Result<(), Failure> {
     let outputs: Vec<(&PathBuf, Format)> =
         options.output.iter().map(|path| Ok((path, Format::of(path)?))).collect::<Result<_, Failure>>()?;
@@ -50,7 +51,11 @@ pub fn run(options: &Simulate) -> Result<(), Failure> {
     let model = source.parse()?.model;
     let plan = Plan::new(options, &model.dynamics)?;
     let mut rods = started(&model, &plan)?;
-    let Run { frames, steps, end, seconds } = stepped(&model, &plan, &mut rods);
+    // Until here there is nothing to keep.
+    interrupt::catch()?;
+    let bar = if options.json { ProgressBar::hidden() } else { progress::bar(plan.steps) };
+    let Run { frames, steps, end, seconds } = stepped(&model, &plan, &mut rods, &bar);
+    bar.finish_and_clear();
     let simulated = steps as f64 * plan.settings.time_step;
     let real_time_factor = if steps == 0 { 0.0 } else { simulated / seconds };
     let ran = Ran { steps, real_time_factor, end };
@@ -64,7 +69,8 @@ pub fn run(options: &Simulate) -> Result<(), Failure> {
     }
     match ran.end {
         End::Failed(_) => Err(Failure::Unsolved),
-        End::Finished | End::Interrupted => Ok(()),
+        End::Interrupted => Err(Failure::Interrupted),
+        End::Finished => Ok(()),
     }
 }
 
@@ -127,11 +133,11 @@ fn started(model: &Model, plan: &Plan) -> Result<Vec<Simulation>, Failure> {
     Ok(rods)
 }
 
-/// Steps until it is done or a step cannot be made.
-fn stepped(model: &Model, plan: &Plan, rods: &mut [Simulation]) -> Run {
+/// Steps until it is done, a step cannot be made, or someone ends it.
+fn stepped(model: &Model, plan: &Plan, rods: &mut [Simulation], bar: &ProgressBar) -> Run {
     let mut run = Run { frames: vec![frame(rods, 0, 0.0)], steps: 0, end: End::Finished, seconds: 0.0 };
     let (mut iterations, mut residual): (usize, f64) = (0, 0.0);
-    while run.steps < plan.steps {
+    while run.steps < plan.steps && run.end == End::Finished {
         let began = Instant::now();
         for (rod, of) in rods.iter_mut().zip(&model.rods) {
             match rod.step() {
@@ -148,9 +154,13 @@ fn stepped(model: &Model, plan: &Plan, rods: &mut [Simulation]) -> Run {
         }
         run.seconds += began.elapsed().as_secs_f64();
         run.steps += 1;
+        bar.inc(1);
+        if run.steps < plan.steps && interrupt::asked() {
+            run.end = End::Interrupted;
+        }
         // The frame that is nearest to its time, and the last.
         let due = (run.frames.len() as f64 * plan.every).round() as usize;
-        if run.steps == due || run.steps == plan.steps {
+        if run.steps == due || run.steps == plan.steps || run.end == End::Interrupted {
             run.frames.push(frame(rods, iterations, residual));
             (iterations, residual) = (0, 0.0);
         }

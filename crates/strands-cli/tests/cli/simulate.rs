@@ -117,3 +117,40 @@ fn a_collection_has_its_files_in_a_folder_beside_it() {
         assert!(std::fs::read_to_string(folder.join(part)).unwrap().contains("\"velocity\""));
     }
 }
+
+/// Where the test can see that Ctrl-C is caught.
+#[cfg(target_os = "linux")]
+#[test]
+fn what_was_simulated_until_someone_ends_it_is_written() {
+    use std::process::{Command, Stdio};
+    use std::time::{Duration, Instant};
+
+    let file = folder("simulate-interrupted").join("fall.json");
+    let endless = ["--seconds", "1e6", "--every", "0.001", "-o", file.to_str().unwrap()];
+    let mut command = crate::common::command();
+    let command = command.args([FALL.as_slice(), &endless].concat());
+    let child = command.stdout(Stdio::piped()).stderr(Stdio::piped()).spawn().unwrap();
+    let began = Instant::now();
+    while !catches_interrupts(child.id()) {
+        assert!(began.elapsed() < Duration::from_secs(60), "it does not begin");
+        std::thread::sleep(Duration::from_millis(5));
+    }
+    assert!(Command::new("kill").args(["-INT", &child.id().to_string()]).status().unwrap().success());
+    let output = child.wait_with_output().unwrap();
+    assert_eq!((output.status.code(), output.stderr.as_slice()), (Some(130), b"".as_slice()));
+    let said = String::from_utf8(output.stdout).unwrap();
+    assert!(said.contains("interrupted: the frames until then are kept"), "{said}");
+    let answer: Value = serde_json::from_str(&std::fs::read_to_string(&file).unwrap()).unwrap();
+    assert_eq!(answer["status"], "interrupted");
+    let frames = answer["frames"].as_array().unwrap();
+    assert_eq!(frames.len() as u64, answer["steps"].as_u64().unwrap() + 1);
+    assert!(frames.len() > 1);
+}
+
+/// Whether a process has a handler for SIGINT (2): the second bit of its mask of caught signals.
+#[cfg(target_os = "linux")]
+fn catches_interrupts(process: u32) -> bool {
+    let status = std::fs::read_to_string(format!("/proc/{process}/status")).unwrap();
+    let caught = status.lines().find_map(|line| line.strip_prefix("SigCgt:")).unwrap().trim();
+    u64::from_str_radix(caught, 16).unwrap() & 2 != 0
+}
