@@ -108,7 +108,10 @@ pub struct Solve {
 Each rod moves by itself, on the mesh of the scene. The scene's [dynamics] says how, and what it leaves out is: integrator bdf2, time_step 1e-3 s,
 duration 1 s, output_rate 60 frames a second, start in equilibrium. `--set dynamics.time_step=5e-4` changes any of them.
 
-Exit status: 0 finished, 1 bad scene or arguments, 2 a step could not be made; what was simulated until then is written all the same.")]
+A .pvd comes with a folder beside it, a .vtp a frame and rod. In .glb and .usda the rods move when they are played.
+
+Exit status: 0 finished, 1 bad scene or arguments, 2 a step could not be made, 130 ended by Ctrl-C; what was simulated until then is written all the
+same. A second Ctrl-C ends it at once.")]
 pub struct Simulate {
     /// A scene file (.toml or .json), `-` for standard input, or the bare name of a bundled scene
     pub scene: String,
@@ -118,7 +121,7 @@ pub struct Simulate {
     /// How far frames are apart, s
     #[arg(long, value_name = "S")]
     pub every: Option<f64>,
-    /// Write the frames, in the format of the ending: .json .csv; may be repeated
+    /// Write the frames, in the format of the ending: .json .csv .npz .pvd .usda .glb; may be repeated
     #[arg(short, long, value_name = "FILE")]
     pub output: Vec<PathBuf>,
     /// Print one JSON object and nothing else

@@ -4,10 +4,13 @@ mod args;
 mod bench;
 mod check;
 mod drawing;
+mod ending;
+mod interrupt;
 mod many;
 mod new;
 mod overrides;
 mod page;
+mod progress;
 mod simulate;
 mod solve;
 mod source;
@@ -30,6 +33,8 @@ pub enum Failure {
     Bad(String),
     /// A solve found no equilibrium, or none within the tolerance, or a comparison failed; the answer has been printed.
     Unsolved,
+    /// Someone ended the command; what there was until then has been printed.
+    Interrupted,
 }
 
 impl Failure {
@@ -63,6 +68,7 @@ fn main() -> ExitCode {
     match run(arguments.command) {
         Ok(()) => ExitCode::SUCCESS,
         Err(Failure::Unsolved) => ExitCode::from(2),
+        Err(Failure::Interrupted) => ExitCode::from(interrupt::STATUS),
         Err(Failure::Bad(message)) => {
             eprintln!("{}", message.trim_end());
             ExitCode::from(1)

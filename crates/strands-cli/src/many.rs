@@ -136,7 +136,7 @@ pub fn path(
     let problem = |at: f64| {
         let model = at_value(at).map_err(|failure| match failure {
             Failure::Bad(message) => message.lines().next().unwrap_or_default().to_owned(),
-            Failure::Unsolved => String::new(),
+            Failure::Unsolved | Failure::Interrupted => String::new(),
         })?;
         model.rod(&name).map(|rod| rod.problem.clone()).ok_or_else(|| "the rod is gone".to_owned())
     };

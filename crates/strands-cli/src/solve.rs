@@ -7,6 +7,7 @@ use strands::statics::{RefineError, Solution, Workspace, solve};
 use strands_scene::{MeshError, Model, write};
 
 use crate::args::Solve;
+use crate::ending::format_of;
 use crate::{Failure, check, colour_out, many, overrides, say, source, summary};
 
 /// A solved scene.
@@ -163,15 +164,7 @@ impl Format {
 
     /// The format that a file's ending asks for.
     fn of(path: &Path) -> Result<Self, Failure> {
-        let ending = path.extension().map(|ending| ending.to_string_lossy().to_ascii_lowercase());
-        let found = Self::ALL.iter().find(|(name, _)| ending.as_deref() == Some(*name));
-        found.map(|(_, format)| *format).ok_or_else(|| {
-            let known = Self::ALL.map(|(name, _)| format!(".{name}")).join(" ");
-            Failure::bad(format!(
-                "{}: a result is written by the file's ending, one of {known}",
-                path.display()
-            ))
-        })
+        format_of(path, "a result is written", &Self::ALL)
     }
 
     /// Several solutions of rods of a model, in all formats but JSON.

@@ -29,6 +29,9 @@ fn frames_are_what_was_promised() {
     for key in ["s", "position", "orientation", "velocity", "angular_velocity"] {
         assert_eq!(beam[key].as_array().unwrap().len(), 41, "{key}");
     }
+    for key in ["strain", "stress"] {
+        assert_eq!(beam[key].as_array().unwrap().len(), 40, "{key}");
+    }
     assert!(beam["velocity"][40][2].as_f64().unwrap() < -0.1, "it falls");
 }
 
@@ -42,6 +45,32 @@ fn a_rod_starts_in_equilibrium_and_stays() {
 }
 
 #[test]
+fn a_rod_in_equilibrium_bears_what_a_solve_says() {
+    for kinematics in ["cosserat", "kirchhoff"] {
+        let kinematics = format!("rods.beam.kinematics=\"{kinematics}\"");
+        let scene = ["cantilever.toml", "--set", &kinematics, "--json"];
+        let answer = |run: crate::common::Run| serde_json::from_str::<Value>(&run.out).unwrap();
+        let solved = answer(strands(&[["solve"].as_slice(), &scene].concat()));
+        let moved = answer(strands(&[["simulate", "--seconds", "0.001"].as_slice(), &scene].concat()));
+        for (key, scale) in [("strain", 1.0), ("stress", 1e-2)] {
+            let [solved, moved] = [&solved, &moved["frames"][0]].map(|at| numbers(&at["rods"]["beam"][key]));
+            assert_eq!(solved.len(), 6 * 40);
+            for (solved, moved) in solved.iter().zip(&moved) {
+                assert!((solved - moved).abs() < 1e-7 * scale, "{kinematics}, {key}: {solved} {moved}");
+            }
+        }
+    }
+}
+
+/// All numbers of nested arrays.
+fn numbers(value: &Value) -> Vec<f64> {
+    match value.as_array() {
+        Some(array) => array.iter().flat_map(numbers).collect(),
+        None => vec![value.as_f64().unwrap()],
+    }
+}
+
+#[test]
 fn a_table_says_how_it_went_and_files_are_written() {
     let file = folder("simulate").join("fall.csv");
     let output = ["--seconds", "0.05", "-o", file.to_str().unwrap()];
@@ -50,14 +79,16 @@ fn a_table_says_how_it_went_and_files_are_written() {
     assert!(run.out.contains("50 steps of 1.000 ms by bdf2"), "{}", run.out);
     assert!(run.out.contains("times as fast as real time"), "{}", run.out);
     let csv = std::fs::read_to_string(&file).unwrap();
-    assert!(csv.starts_with("t,rod,s,x,y,z,qw,qx,qy,qz,vx,vy,vz,wx,wy,wz\n0,beam,0,"), "{csv:.100}");
+    let columns = "t,rod,s,x,y,z,qw,qx,qy,qz,vx,vy,vz,wx,wy,wz,kappa1,kappa2,tau,v1,v2,v3,m1,m2,m3,n1,n2,n3";
+    assert!(csv.starts_with(&format!("{columns}\n0.0,beam,0.0,")), "{csv:.200}");
     assert_eq!((csv.lines().count() - 1) % 41, 0);
+    assert!(csv.lines().nth(41).unwrap().ends_with(",,,,,,,,,,,,"), "the last node begins no element");
 }
 
 #[test]
 fn what_cannot_be_simulated_is_said() {
     for (set, said) in [
-        ("dynamics.integrator=\"midpoint\"", "is not there yet"),
+        ("dynamics.integrator=\"midpoint\"", "\"midpoint\" is not there yet"),
         ("dynamics.start=\"there\"", "neither \"equilibrium\" nor \"rest\""),
         ("dynamics.tolerance=1e-3", "give `time_step`"),
         ("solver.order=4", "order 2"),
@@ -68,5 +99,58 @@ fn what_cannot_be_simulated_is_said() {
         assert!(run.err.contains(said), "{}", run.err);
     }
     let run = strands(&["simulate", "cantilever.toml", "-o", "fall.vtp"]);
-    assert!(run.code == 1 && run.err.contains(".json .csv"), "{}", run.err);
+    assert!(run.code == 1 && run.err.contains(".json .csv .npz .pvd .usda .glb"), "{}", run.err);
+}
+
+#[test]
+fn a_collection_has_its_files_in_a_folder_beside_it() {
+    let folder = folder("simulate-pvd");
+    let file = folder.join("fall.of.beam.pvd");
+    let output = ["--seconds", "0.05", "--every", "0.025", "-o", file.to_str().unwrap()];
+    let run = strands(&[FALL.as_slice(), &output].concat());
+    assert_eq!((run.code, run.err.as_str()), (0, ""));
+    let collection = std::fs::read_to_string(&file).unwrap();
+    let parts: Vec<&str> =
+        collection.split("file=\"").skip(1).map(|rest| rest.split('"').next().unwrap()).collect();
+    assert_eq!(parts, [0, 1, 2].map(|frame| format!("fall.of.beam/beam_{frame}.vtp")));
+    for part in parts {
+        assert!(std::fs::read_to_string(folder.join(part)).unwrap().contains("\"velocity\""));
+    }
+}
+
+/// Where the test can see that Ctrl-C is caught.
+#[cfg(target_os = "linux")]
+#[test]
+fn what_was_simulated_until_someone_ends_it_is_written() {
+    use std::process::{Command, Stdio};
+    use std::time::{Duration, Instant};
+
+    let file = folder("simulate-interrupted").join("fall.json");
+    let endless = ["--seconds", "1e6", "--every", "0.001", "-o", file.to_str().unwrap()];
+    let mut command = crate::common::command();
+    let command = command.args([FALL.as_slice(), &endless].concat());
+    let child = command.stdout(Stdio::piped()).stderr(Stdio::piped()).spawn().unwrap();
+    let began = Instant::now();
+    while !catches_interrupts(child.id()) {
+        assert!(began.elapsed() < Duration::from_secs(60), "it does not begin");
+        std::thread::sleep(Duration::from_millis(5));
+    }
+    assert!(Command::new("kill").args(["-INT", &child.id().to_string()]).status().unwrap().success());
+    let output = child.wait_with_output().unwrap();
+    assert_eq!((output.status.code(), output.stderr.as_slice()), (Some(130), b"".as_slice()));
+    let said = String::from_utf8(output.stdout).unwrap();
+    assert!(said.contains("interrupted: the frames until then are kept"), "{said}");
+    let answer: Value = serde_json::from_str(&std::fs::read_to_string(&file).unwrap()).unwrap();
+    assert_eq!(answer["status"], "interrupted");
+    let frames = answer["frames"].as_array().unwrap();
+    assert_eq!(frames.len() as u64, answer["steps"].as_u64().unwrap() + 1);
+    assert!(frames.len() > 1);
+}
+
+/// Whether a process has a handler for SIGINT (2): the second bit of its mask of caught signals.
+#[cfg(target_os = "linux")]
+fn catches_interrupts(process: u32) -> bool {
+    let status = std::fs::read_to_string(format!("/proc/{process}/status")).unwrap();
+    let caught = status.lines().find_map(|line| line.strip_prefix("SigCgt:")).unwrap().trim();
+    u64::from_str_radix(caught, 16).unwrap() & 2 != 0
 }

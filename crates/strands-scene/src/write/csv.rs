@@ -1,36 +1,44 @@
 //! A table for spreadsheets and plots.
 
-use super::Solved;
+use super::{Shape, Solved};
 use crate::model::Model;
 use strands::statics::Solution;
 
-/// The columns: the rod's name; the node's place (m), position (m) and orientation quaternion; then strain (1/m, and
-/// dimensionless) and stress (N·m, N) of the element that begins at the node, in body axes.
-const COLUMNS: [&str; 21] = [
-    "rod", "s", "x", "y", "z", "qw", "qx", "qy", "qz", "kappa1", "kappa2", "tau", "v1", "v2", "v3", "m1",
-    "m2", "m3", "n1", "n2", "n3",
-];
+/// The columns of a node: its place (m), position (m) and orientation quaternion.
+pub(super) const AT_NODE: [&str; 8] = ["s", "x", "y", "z", "qw", "qx", "qy", "qz"];
+/// The columns of the element that begins at a node: strain (1/m, and dimensionless) and stress (N·m, N), in body axes.
+pub(super) const OF_ELEMENT: [&str; 12] =
+    ["kappa1", "kappa2", "tau", "v1", "v2", "v3", "m1", "m2", "m3", "n1", "n2", "n3"];
 
 /// The solutions as CSV, one row a node, with the columns `rod`, `s`, `x` to `z`, `qw` to `qz`, and those of the element that begins at
 /// the node: strain `kappa1`, `kappa2`, `tau`, `v1` to `v3` and stress `m1` to `m3`, `n1` to `n3`, empty at the last node.
 pub fn csv(model: &Model, solutions: &[(&str, &Solution)]) -> String {
+    let columns: Vec<&str> = ["rod"].into_iter().chain(AT_NODE).chain(OF_ELEMENT).collect();
     let mut rows = Vec::new();
-    for Solved { rod, solution } in Solved::all(model, solutions) {
-        for (node, (s, pose)) in rod.problem.rod.mesh().nodes().iter().zip(&solution.poses).enumerate() {
-            let mut row = vec![rod.name.clone()];
-            let at_node =
-                [*s].into_iter().chain(pose.position.to_array()).chain(pose.orientation().to_wxyz());
-            row.extend(at_node.map(number));
-            match (solution.strain.get(node), solution.stress.get(node)) {
-                (Some(strain), Some(stress)) => {
-                    row.extend(strain.to_array().into_iter().chain(stress.to_array()).map(number));
-                }
-                _ => row.resize(COLUMNS.len(), String::new()),
-            }
-            rows.push(row);
+    for shape in Solved::all(model, solutions).iter().map(Solved::shape) {
+        for node in 0..shape.poses.len() {
+            let name = [shape.rod.name.clone()].into_iter();
+            rows.push(name.chain(at_node(&shape, node)).chain(of_element(&shape, node)).collect());
         }
     }
-    table(&COLUMNS, rows)
+    table(&columns, rows)
+}
+
+/// A node's place, position and orientation.
+pub(super) fn at_node(shape: &Shape<'_>, node: usize) -> impl Iterator<Item = String> {
+    let pose = &shape.poses[node];
+    let position = pose.position.to_array();
+    [shape.s()[node]].into_iter().chain(position).chain(pose.orientation().to_wxyz()).map(number)
+}
+
+/// Strain and stress of the element that begins at a node; nothing at the last.
+pub(super) fn of_element(shape: &Shape<'_>, node: usize) -> Vec<String> {
+    match (shape.strain.get(node), shape.stress.get(node)) {
+        (Some(strain), Some(stress)) => {
+            strain.to_array().into_iter().chain(stress.to_array()).map(number).collect()
+        }
+        _ => vec![String::new(); OF_ELEMENT.len()],
+    }
 }
 
 /// Rows under the names of their columns.
@@ -45,6 +53,6 @@ pub(super) fn table(columns: &[&str], rows: impl IntoIterator<Item = Vec<String>
 }
 
 /// The shortest text that reads back as the same number.
-fn number(x: f64) -> String {
+pub(super) fn number(x: f64) -> String {
     format!("{x:?}")
 }

@@ -6,7 +6,7 @@ use serde::Serialize;
 use serde_json::{Map, Value, json as value};
 use std::fmt::Display;
 use strands::math::Vec3;
-use strands::statics::{Event, EventKind, Method, PathEnd, Solution, SolveReport};
+use strands::statics::{Event, EventKind, Method, PathEnd, Reaction, Solution, SolveReport};
 
 #[derive(Serialize)]
 struct RodAnswer<'a> {
@@ -28,10 +28,17 @@ struct ModeAnswer {
 }
 
 #[derive(Serialize)]
-struct ReactionAnswer {
+pub(super) struct ReactionAnswer {
     s: f64,
     force: [f64; 3],
     moment: [f64; 3],
+}
+
+impl From<&Reaction> for ReactionAnswer {
+    fn from(reaction: &Reaction) -> Self {
+        let Reaction { s, force, moment } = *reaction;
+        Self { s, force: force.to_array(), moment: moment.to_array() }
+    }
 }
 
 /// The answer of a solve that converged, one JSON object.
@@ -104,9 +111,7 @@ fn rod<'a>(solved: &Solved<'a>) -> RodAnswer<'a> {
     let Solution { poses, strain, stress, reactions, .. } = solved.solution;
     let problem = &solved.rod.problem;
     let held = problem.supports().map(|(_, support)| support.holds_anything());
-    let reactions = reactions.iter().zip(held).filter(|(_, held)| *held).map(|(reaction, _)| {
-        ReactionAnswer { s: reaction.s, force: reaction.force.to_array(), moment: reaction.moment.to_array() }
-    });
+    let reactions = reactions.iter().zip(held).filter(|(_, held)| *held).map(|(reaction, _)| reaction.into());
     let vectors = |vectors: Vec<Vec3>| vectors.into_iter().map(Vec3::to_array).collect();
     let unstable_mode = solved.unstable_mode().map(|mode| ModeAnswer {
         curvature: mode.curvature,
@@ -114,7 +119,7 @@ fn rod<'a>(solved: &Solved<'a>) -> RodAnswer<'a> {
         displacement: vectors(mode.displacement),
     });
     RodAnswer {
-        s: solved.s(),
+        s: solved.shape().s(),
         position: poses.iter().map(|pose| pose.position.to_array()).collect(),
         orientation: poses.iter().map(|pose| pose.orientation().to_wxyz()).collect(),
         strain: strain.iter().map(|strain| strain.to_array()).collect(),

@@ -1,6 +1,7 @@
 //! A picture: the rods as seen along the direction in which the scene is flattest, with the world's axes and a scale.
 
 use super::Solved;
+use super::names::escaped;
 use super::view::View;
 use crate::model::Model;
 use std::fmt::Write;
@@ -160,8 +161,4 @@ fn metres(length: f64) -> String {
         _ => return format!("{length:.0e} m"),
     };
     format!("{:.0} {unit}", length * factor)
-}
-
-fn escaped(text: &str) -> String {
-    text.replace('&', "&amp;").replace('<', "&lt;").replace('>', "&gt;")
 }

@@ -1,6 +1,6 @@
-//! The surface of a solved rod: its true section, swept along its frames.
+//! The surface of a rod: its true section, swept along its frames.
 
-use super::Solved;
+use super::Shape;
 use std::f64::consts::TAU;
 use strands::math::{Pose, Vec3};
 use strands::rod::{Profile, Section};
@@ -25,15 +25,15 @@ struct Outline {
 
 impl Tube {
     /// Sweeps a rod, stretch by stretch between the steps of its section.
-    pub fn of(solved: &Solved<'_>) -> Self {
+    pub fn of(shape: &Shape<'_>) -> Self {
         let mut tube = Self::default();
-        let mesh = solved.rod.problem.rod.mesh();
+        let mesh = shape.rod.problem.rod.mesh();
         for span in mesh.spans() {
             let middle = 0.5 * (mesh.nodes()[span.start] + mesh.nodes()[span.end]);
-            let ring = |node: usize| outline(solved, mesh.nodes()[node], middle);
+            let ring = |node: usize| outline(shape, mesh.nodes()[node], middle);
             let first = tube.positions.len();
             for node in span.start..=span.end {
-                tube.ring(&ring(node), &solved.solution.poses[node], node);
+                tube.ring(&ring(node), &shape.poses[node], node);
             }
             let Outline { points, sides } = ring(span.start);
             for turn in 0..span.len() {
@@ -51,9 +51,9 @@ impl Tube {
                     node.checked_sub(1).map(|i| &mesh.nodes()[i])
                 };
                 let goes_on = beyond
-                    .is_some_and(|beyond| outline(solved, mesh.nodes()[node], *beyond).points == here.points);
+                    .is_some_and(|beyond| outline(shape, mesh.nodes()[node], *beyond).points == here.points);
                 if !goes_on {
-                    tube.cap(&here, &solved.solution.poses[node], node, ahead);
+                    tube.cap(&here, &shape.poses[node], node, ahead);
                 }
             }
         }
@@ -97,8 +97,8 @@ fn in_world(pose: &Pose, [x, y]: [f64; 2]) -> Vec3 {
 }
 
 /// The outline of the section at `s`, on the side of `towards`.
-fn outline(solved: &Solved<'_>, s: f64, towards: f64) -> Outline {
-    match &solved.rod.problem.rod.description().profile {
+fn outline(shape: &Shape<'_>, s: f64, towards: f64) -> Outline {
+    match &shape.rod.problem.rod.description().profile {
         Profile::Given { half_extent, .. } => round(*half_extent),
         Profile::Stations(stations) => {
             let after =

@@ -84,7 +84,8 @@ impl Simulation {
         (sum.linear, sum.angular)
     }
 
-    /// What held a frame at the end of the last step: force and moment about it, in the world. Zero where nothing holds it, and before the first step.
+    /// What held a frame at the end of the last step: force and moment about it, in the world; before the first step, what holds it if nothing accelerates.
+    /// Zero where nothing holds it.
     pub fn reaction(&self, member: Member) -> Wrench {
         let held = self.assembly.support(member).is_some_and(|support| support.fixed.contains(&true));
         let Some(frame) = self.assembly.frame(member).filter(|_| held) else { return Wrench::ZERO };

@@ -225,6 +225,7 @@ impl Simulation {
             return Err(SimulationError::Unfit { got, needed });
         }
         self.state = state;
+        self.weigh();
         Ok(())
     }
 

@@ -10,6 +10,9 @@ use crate::statics::{Motion, Network, Nodal, Problem, Record, Support, meet, rig
 /// Round-off of a frame, with room, over that of a number.
 const ROUND_OFF: f64 = 4.0;
 
+/// In a stage so long, s, nothing accelerates.
+const LONG: f64 = 1e9;
+
 /// Rods and bodies that move independently of all others.
 #[derive(Clone, Debug)]
 pub(super) struct Group {
@@ -268,6 +271,28 @@ impl Simulation {
             taken.add(self.solve_group(group)?);
         }
         Ok(taken)
+    }
+
+    /// Takes what acts where all is, as if it did not move: so what holds it is known before the first step.
+    pub(super) fn weigh(&mut self) {
+        let Self { assembly, settings, state, origin, work } = self;
+        work.stage.begin(state);
+        work.stage.set_up(LONG, state);
+        work.poses.clone_from(&state.poses);
+        for group in &mut work.groups {
+            group.guess(assembly, &work.ties, &mut work.poses, state);
+            let given = Given {
+                assembly,
+                ties: &work.ties,
+                inertia: &work.inertia,
+                lengths: &work.lengths,
+                origin: *origin,
+                lost: 0.0,
+                tolerance: settings.tolerance,
+                level: work.level,
+            };
+            group.linearise(&given, &mut work.stage, &mut work.poses);
+        }
     }
 
     fn solve_group(&mut self, group: usize) -> Result<Taken, StepFailure> {

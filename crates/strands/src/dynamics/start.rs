@@ -28,6 +28,12 @@ const LONG: f64 = 1e6;
 
 impl Simulation {
     pub(super) fn start(&mut self, start: Start) -> Result<(), SimulationError> {
+        self.put(start)?;
+        self.weigh();
+        Ok(())
+    }
+
+    fn put(&mut self, start: Start) -> Result<(), SimulationError> {
         match start {
             Start::State(state) => self.restore(*state),
             Start::Rest => self.at_rest(true),

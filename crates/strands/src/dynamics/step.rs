@@ -32,7 +32,22 @@ impl Simulation {
     /// # Errors
     /// Where it cannot be made; the state is then as before.
     pub fn step(&mut self) -> Result<Step, StepFailure> {
-        self.step_of_at_most(f64::INFINITY)
+        self.step_towards(f64::INFINITY)
+    }
+
+    /// Makes one step, which does not go beyond a time (s) where its error chooses it.
+    ///
+    /// # Errors
+    /// As [`Simulation::step`].
+    pub fn step_towards(&mut self, until: f64) -> Result<Step, StepFailure> {
+        if let Some(allowed) = self.settings.local_error {
+            return self.step_by_error(allowed, until - self.state.time);
+        }
+        self.work.step = self.settings.time_step;
+        let held = Held::begin(self);
+        let step = self.whole_or_in_pieces(&held);
+        held.end(self);
+        step
     }
 
     /// Makes steps until a time, s. Where all steps are alike the last one ends nearest to it.
@@ -46,7 +61,7 @@ impl Simulation {
             None => 0.5 * self.settings.time_step,
         };
         while self.state.time < until - slack {
-            let step = self.step_of_at_most(until - self.state.time)?;
+            let step = self.step_towards(until)?;
             all.time = step.time;
             all.seconds += step.seconds;
             all.iterations += step.iterations;
@@ -54,18 +69,6 @@ impl Simulation {
             all.pieces += step.pieces;
         }
         Ok(all)
-    }
-
-    fn step_of_at_most(&mut self, longest: f64) -> Result<Step, StepFailure> {
-        let longest = match self.settings.local_error {
-            Some(allowed) => return self.step_by_error(allowed, longest),
-            None => self.settings.time_step,
-        };
-        self.work.step = longest;
-        let held = Held::begin(self);
-        let step = self.whole_or_in_pieces(&held);
-        held.end(self);
-        step
     }
 
     fn whole_or_in_pieces(&mut self, held: &Held) -> Result<Step, StepFailure> {

@@ -8,6 +8,7 @@ mod material;
 mod mesh;
 mod rest;
 mod section;
+mod shape;
 
 pub use error::RodError;
 pub use law::{Law, StiffeningEnergy, Stiffness, StoredEnergy};

@@ -90,6 +90,9 @@ fn a_node_is_grasped_lifted_and_let_go() {
     for integrator in [Integrator::Bdf2, Integrator::Sdirk4, Integrator::Midpoint] {
         let mut simulation = simulated(heavy(suture(40)), integrator, 1e-3, Start::Equilibrium);
         let there = simulation.state().poses[20];
+        let weight = simulation.assembly().strands[0].problem.rod.mass() * 9.81;
+        let bears = simulation.reaction(Member::Node { rod: 0, node: 0 }).linear;
+        assert!((bears + Vec3::X * weight).norm() < 1e-9 * weight, "{bears:?}");
         let hold = |simulation: &mut Simulation, lift: f64| {
             let pose = Pose { position: there.position - Vec3::X * lift, ..there };
             simulation.assembly_mut().strands[0].problem.between = vec![(20, Support::clamped(pose))];
