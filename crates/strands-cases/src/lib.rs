@@ -42,6 +42,7 @@ mod pose;
 mod setup;
 mod spatial;
 mod spring;
+pub mod swinging;
 mod table;
 mod three_points;
 mod tip_wrench;

@@ -2,6 +2,7 @@
 
 use strands::dynamics::{Integrator, Settings, Simulation, Start};
 use strands_cases::falling;
+use strands_cases::swinging::{FINE_WIRE, LONG_WIRE, LONG_WIRE_TIP, SUTURE, Swinging, TUBE};
 
 #[test]
 fn a_straight_rod_that_weight_begins_to_act_on_swings_as_its_modes_do() {
@@ -21,4 +22,49 @@ fn a_straight_rod_that_weight_begins_to_act_on_swings_as_its_modes_do() {
         let error = (sum / f64::from(steps)).sqrt();
         assert!(error < 5e-3, "{} at {time_step}: {error}", integrator.name());
     }
+}
+
+/// Swings for ten seconds at a millisecond a step, undamped; gives the part of its amplitude that is left.
+fn amplitude_left(rod: &Swinging, elements: usize, integrator: Integrator) -> f64 {
+    let settings = Settings { integrator, time_step: 1e-3, ..Settings::default() };
+    let problem = rod.problem(elements).unwrap();
+    let rest = Simulation::new(problem.clone(), settings, Start::Equilibrium).unwrap().energy().total();
+    let mut simulation = Simulation::new(problem, settings, Start::Rest).unwrap();
+    let began = simulation.energy().total() - rest;
+    while simulation.state().time < 9.9995 {
+        assert_eq!(simulation.step().unwrap().pieces, 1);
+        let moved = simulation.state().poses.iter().all(|pose| pose.position.norm() < 1.001 * rod.length);
+        assert!(moved, "{} grows", rod.name);
+    }
+    ((simulation.energy().total() - rest) / began).sqrt()
+}
+
+#[test]
+fn thin_rods_swing_for_ten_seconds_and_keep_their_amplitude() {
+    for (rod, elements) in
+        [(&SUTURE, 25), (&SUTURE, 50), (&SUTURE, 100), (&SUTURE, 200), (&FINE_WIRE, 100), (&TUBE, 100)]
+    {
+        let left = amplitude_left(rod, elements, Integrator::Midpoint);
+        assert!((left - 1.0).abs() < 1e-6, "{} of {elements} elements: {left}", rod.name);
+    }
+    // Backward differences lose what is faster than their steps.
+    for (rod, least) in [(&SUTURE, 0.99), (&FINE_WIRE, 0.98)] {
+        let left = amplitude_left(rod, 50, Integrator::Bdf2);
+        assert!((least..=1.0).contains(&left), "{}: {left}", rod.name);
+    }
+}
+
+#[test]
+fn a_long_wire_comes_to_rest_where_it_should() {
+    let settings = Settings {
+        integrator: Integrator::Bdf2,
+        time_step: 0.05,
+        mass_damping: 2.0 * LONG_WIRE.first_frequency(),
+        ..Settings::default()
+    };
+    let mut simulation = Simulation::new(LONG_WIRE.problem(100).unwrap(), settings, Start::Rest).unwrap();
+    simulation.advance(6.0).unwrap();
+    let tip = simulation.state().poses[100].position;
+    let error = (tip.z - LONG_WIRE_TIP[0]).hypot(tip.x - LONG_WIRE_TIP[1]) / LONG_WIRE_TIP[1];
+    assert!(error < 1e-4, "{error:e}: {tip:?}");
 }
