@@ -28,7 +28,7 @@ SHORT, REPEATS = 2.0, 3
 def main():
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
     parser.add_argument("--case", choices=[case.name for case in CASES], help="only this rod")
-    parser.add_argument("--engine", choices=[engine.module for engine in ENGINES], help="only this engine")
+    parser.add_argument("--engine", action="append", choices=[engine.module for engine in ENGINES], help="only this engine; may be repeated")
     parser.add_argument("--quick", action="store_true", help="fewer steps and a budget of 5 s a run")
     parser.add_argument("--budget", type=float, help="most CPU seconds that a run may take; one that would take more is stopped and extrapolated (60)")
     parser.add_argument("--strands", help="the command to compare (target/release/strands, or the one on the path)")
@@ -37,7 +37,7 @@ def main():
     arguments.budget = arguments.budget or (5.0 if arguments.quick else 60.0)
     binary = strands_binary(arguments.strands)
 
-    pythons = {engine.name: python_of(engine) for engine in ENGINES if arguments.engine in (None, engine.module)}
+    pythons = {engine.name: python_of(engine) for engine in ENGINES if engine.module in (arguments.engine or [engine.module])}
     versions, parts = {}, []
     for case in CASES:
         if arguments.case in (None, case.name):
