@@ -144,7 +144,7 @@ ENGINES = (
         module="mujoco_cable",
         package="mujoco==3.17.0",
         methods=("implicitfast", "Euler"),
-        steps=(0.25, 0.5, 1.0, 2.0, 4.0, 8.0),
+        steps=(0.25, 0.5, 0.7, 1.0, 2.0, 4.0, 8.0),
         quick_steps=(0.5,),
         limit=cable_limit,
     ),
