@@ -7,6 +7,7 @@
 mod energy;
 mod failure;
 mod holds;
+mod inertia;
 mod integrator;
 mod midpoint;
 mod newton;

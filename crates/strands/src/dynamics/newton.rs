@@ -69,7 +69,7 @@ impl RodSystem {
             stage.take_secants(elements, self.first, elastic, viscosity, poses);
             return;
         }
-        stage.take_inertia(nodes, given.inertia, poses, given.origin, &resistance);
+        stage.take_inertia(nodes, given.inertia, poses, given.origin, &resistance, given.level);
         if viscosity > 0.0 {
             stage.take_viscosity(elements, self.first, elastic, viscosity, poses);
         }
@@ -174,7 +174,7 @@ impl Group {
         for &body in &self.bodies {
             let frame = assembly.first_body() + body;
             let pose = poses[frame];
-            stage.take_inertia(frame..frame + 1, given.inertia, &[pose], given.origin, &resistance);
+            stage.take_inertia(frame..frame + 1, given.inertia, &[pose], given.origin, &resistance, level);
             let NodeInertia { mass, .. } = given.inertia[frame];
             let moved = f64::EPSILON * pose.position.max_abs() / (stage.of_rate * stage.of_rate);
             let unsure = ROUND_OFF * mass * moved / given.tolerance;

@@ -1,9 +1,12 @@
 //! One stage of a step: frames at which momentum has changed by what acts there.
 
 use super::State;
+use super::inertia::TakeInertia;
 use crate::assembly::Drag;
 use crate::element::DiagonalPoint;
-use crate::math::{Mat3, Pose, Quat, Vec3, Vec6, Wrench, exp_coefficients, tangent_inverse};
+use crate::math::{
+    Mat3, Pose, Quat, SimdLevel, Vec3, Vec6, Wrench, dispatch, exp_coefficients, tangent_inverse,
+};
 use crate::rod::NodeInertia;
 use crate::statics::Inertial;
 use core::ops::Range;
@@ -13,7 +16,7 @@ use core::ops::Range;
 pub(super) struct Stage {
     /// The frames at the step's beginning, and what canonical coordinates about them and momenta would be without rates at this time.
     pub base: Vec<Pose>,
-    offsets: Vec<Vec6>,
+    pub offsets: Vec<Vec6>,
     pub known_momenta: Vec<Wrench>,
     /// Whether the frames are those in the middle of a step, and the velocities at its beginning.
     pub middle: bool,
@@ -148,42 +151,19 @@ impl Stage {
         poses: &[Pose],
         origin: Vec3,
         resistance: &Resistance,
+        level: SimdLevel,
     ) {
+        let (first, lost) = (frames.start, resistance.lost);
+        dispatch(level, TakeInertia { stage: self, first, inertia, poses, origin, lost });
+        let Some((drag, lengths, wind)) = resistance.air else { return };
         let per_rate = 1.0 / self.of_rate;
-        let per_momentum = per_rate + resistance.lost;
         for (at, i) in frames.enumerate() {
-            let pose = &poses[at];
-            let q = coordinates(&self.base[i], pose);
-            let rate = (q - self.offsets[i]) * per_rate;
-            let turning = Turning::new(q.angular, rate.angular, self.of_rate);
-            let NodeInertia { mass, rotational } = inertia[i];
-            let spin = pose.rotation * rotational.scale(turning.velocity);
-            let place = pose.position - origin;
-            let momentum = Wrench::new(spin + place.cross(rate.linear) * mass, rate.linear * mass);
-            let known = self.known_momenta[i];
-            // Of the momentum about the node.
-            let change =
-                Wrench::new(spin - known.angular + place.cross(known.linear), momentum.linear - known.linear);
-            let turned =
-                pose.rotation * Mat3::diagonal(rotational) * turning.by_turn * pose.rotation.transpose();
-            self.coordinate_rates[i] = rate;
-            self.velocities[i] = Vec6::new(turning.velocity, rate.linear);
-            self.momenta[i] = momentum;
-            self.inertial[i] = Inertial {
-                exerts: change * (-per_rate) - Wrench::new(spin, momentum.linear) * resistance.lost,
-                by_turn: (turned - Mat3::hat(spin)).scaled(-per_momentum),
-                by_shift: [
-                    Mat3::hat(known.linear).scaled(per_rate),
-                    Mat3::IDENTITY.scaled(-per_momentum * per_rate * mass),
-                ],
-            };
-            if let Some((drag, lengths, wind)) = resistance.air {
-                let (force, by_velocity) = air(&drag, pose.rotation.cols[2], rate.linear - wind);
-                self.drags[i] = force * lengths[at];
-                self.inertial[i].exerts.linear += self.drags[i];
-                let by_shift = &mut self.inertial[i].by_shift[1];
-                *by_shift = *by_shift + by_velocity.scaled(lengths[at] * per_rate);
-            }
+            let velocity = self.velocities[i].linear - wind;
+            let (force, by_velocity) = air(&drag, poses[at].rotation.cols[2], velocity);
+            self.drags[i] = force * lengths[at];
+            self.inertial[i].exerts.linear += self.drags[i];
+            let by_shift = &mut self.inertial[i].by_shift[1];
+            *by_shift = *by_shift + by_velocity.scaled(lengths[at] * per_rate);
         }
     }
 }
@@ -208,27 +188,6 @@ fn coordinates(base: &Pose, pose: &Pose) -> Vec6 {
 fn at_coordinates(base: &Pose, q: Vec6) -> Pose {
     let turn = Quat::from_rotation_vector(q.angular).to_matrix();
     Pose { rotation: base.rotation * turn, position: base.position + q.linear }
-}
-
-/// An angular velocity `T(θ) θ̇` in a node's own axes.
-struct Turning {
-    velocity: Vec3,
-    /// How it changes with a turn of the frame, in its own axes, which is `T(θ) δθ`, where `θ = Δ + a θ̇` with a known `Δ`.
-    by_turn: Mat3,
-}
-
-impl Turning {
-    fn new(theta: Vec3, rate: Vec3, of_rate: f64) -> Self {
-        let k = exp_coefficients(theta.dot(theta));
-        let (hat, of_rate_hat) = (Mat3::hat(theta), Mat3::hat(rate));
-        let tangent = so3_tangent(theta);
-        // The change of T with θ, times θ̇.
-        let (once, twice) = (theta.cross(rate), theta.cross(theta.cross(rate)));
-        let by_theta = of_rate_hat.scaled(k.b) - (Mat3::hat(once) + hat * of_rate_hat).scaled(k.c)
-            + Mat3::outer(twice * k.dc - once * k.db, theta * 2.0);
-        let by_turn = (tangent.scaled(1.0 / of_rate) + by_theta) * tangent.inverse();
-        Self { velocity: tangent * rate, by_turn }
-    }
 }
 
 /// `T(θ)`.

@@ -30,10 +30,19 @@ impl Mat6 {
     }
 
     /// As rows of numbers.
+    #[inline]
     pub fn to_rows(&self) -> [[f64; 6]; 6] {
-        core::array::from_fn(|i| {
-            core::array::from_fn(|j| self.blocks[i / 3][j / 3].cols[j % 3].to_array()[i % 3])
-        })
+        let mut rows = [[0.0; 6]; 6];
+        for (r, blocks) in self.blocks.iter().enumerate() {
+            for (c, block) in blocks.iter().enumerate() {
+                for (k, column) in block.cols.iter().enumerate() {
+                    rows[3 * r][3 * c + k] = column.x;
+                    rows[3 * r + 1][3 * c + k] = column.y;
+                    rows[3 * r + 2][3 * c + k] = column.z;
+                }
+            }
+        }
+        rows
     }
 
     /// The transpose.

@@ -199,8 +199,13 @@ impl Nodal {
             let at = self.places[i];
             let (world, body) = (axes.wrench(problem.loads.world[i]), axes.wrench(problem.loads.body[i]));
             let mut load = Wrench::new(world.angular + at.cross(world.linear), world.linear);
+            let pulls = problem.loads.pulls_at(i);
+            if body == Wrench::ZERO && pulls.is_empty() {
+                self.loads.push(load);
+                continue;
+            }
             let mut slope = Mat6::ZERO;
-            for pull in problem.loads.pulls_at(i) {
+            for pull in pulls {
                 let force = pull.force(pose.position) * (1.0 / axes.force);
                 load += Wrench::new(at.cross(force), force);
                 let by_shift = pull.slope(pose.position).scaled(axes.length / axes.force);
@@ -215,9 +220,7 @@ impl Nodal {
                 slope = slope.add(&dead.scaled(-1.0));
             }
             self.loads.push(load);
-            if slope != Mat6::ZERO {
-                self.load_slopes.push((i, slope.to_rows()));
-            }
+            self.load_slopes.push((i, slope.to_rows()));
         }
         for (node, end) in problem.supports() {
             let Some(grip) = &end.grip else { continue };
@@ -524,7 +527,7 @@ fn dead_moment_slope<R: Real>(at: Vec3<R>, force: Vec3<R>) -> [Mat3<Vec3<R>>; 2]
 
 /// The logarithms of poses, in lanes.
 #[inline(always)]
-fn logs<R: Wide>(poses: &Pose<Vec3<R>>) -> Vec6<Vec3<R>> {
+pub(crate) fn logs<R: Wide>(poses: &Pose<Vec3<R>>) -> Vec6<Vec3<R>> {
     let mut logs = poses.log_of_small_turn();
     if !R::all(logs.angular.x.at_most(f64::INFINITY)) {
         log_large_turns(poses, &mut logs);

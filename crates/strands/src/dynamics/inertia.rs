@@ -1,0 +1,104 @@
+//! What inertia exerts on frames in a stage, several side by side.
+
+use super::stage::Stage;
+use crate::math::{Kernel, Lanes, Mat3, Pose, Real, Vec3, Vec6, Wrench, exp_coefficients};
+use crate::rod::NodeInertia;
+use crate::statics::{Inertial, logs};
+
+const SIDE: usize = 8;
+type Side = Vec3<Lanes<SIDE>>;
+
+/// Takes what inertia exerts on frames from the first on, and how they move.
+pub(super) struct TakeInertia<'a> {
+    pub stage: &'a mut Stage,
+    pub first: usize,
+    pub inertia: &'a [NodeInertia],
+    pub poses: &'a [Pose],
+    /// Where momenta are about.
+    pub origin: Vec3,
+    /// The momentum that is lost, over itself, 1/s.
+    pub lost: f64,
+}
+
+impl Kernel for TakeInertia<'_> {
+    type Output = ();
+
+    #[inline(always)]
+    fn run(self) {
+        let Self { stage, first, inertia, poses, origin, lost } = self;
+        for begin in (0..poses.len()).step_by(SIDE) {
+            let at = |lane: usize| (begin + lane).min(poses.len() - 1);
+            let mut base = Mat3 { cols: [Side::zero(); 3] };
+            let mut rotation = base;
+            let [mut shift, mut place, mut rotational] = [Side::zero(); 3];
+            let [mut offset, mut known] = [Vec6::<Side>::zero(); 2];
+            let mass = Lanes::from_fn(|lane| inertia[first + at(lane)].mass);
+            for lane in 0..SIDE {
+                let (i, pose) = (first + at(lane), &poses[at(lane)]);
+                let before = &stage.base[i];
+                for k in 0..3 {
+                    base.cols[k].put(lane, before.rotation.cols[k]);
+                    rotation.cols[k].put(lane, pose.rotation.cols[k]);
+                }
+                shift.put(lane, pose.position - before.position);
+                place.put(lane, pose.position - origin);
+                rotational.put(lane, inertia[i].rotational);
+                offset.put(lane, stage.offsets[i]);
+                known.put(lane, stage.known_momenta[i]);
+            }
+            let relative = Pose { rotation: base.transpose() * rotation, position: Side::zero() };
+            let q = Vec6::new(logs(&relative).angular, shift);
+            let per_rate = Lanes::splat(1.0 / stage.of_rate);
+            let per_momentum = per_rate + Lanes::splat(lost);
+            let rate = (q - offset) * per_rate;
+            let turning = Turning::new(q.angular, rate.angular, per_rate);
+            let spin = rotation * rotational.scale(turning.velocity);
+            let linear = rate.linear * mass;
+            // Of the momentum about the node.
+            let change = Vec6::new(spin - known.angular + place.cross(known.linear), linear - known.linear);
+            let exerts = change * -per_rate - Vec6::new(spin, linear) * Lanes::splat(lost);
+            let turned = rotation * Mat3::diagonal(rotational) * turning.by_turn * rotation.transpose();
+            let by_turn = (turned - Mat3::hat(spin)).scaled(-per_momentum);
+            let about_origin = spin + place.cross(linear);
+            for lane in 0..SIDE.min(poses.len() - begin) {
+                let i = first + begin + lane;
+                let rate = rate.lane(lane);
+                stage.coordinate_rates[i] = rate;
+                stage.velocities[i] = Vec6::new(turning.velocity.lane(lane), rate.linear);
+                stage.momenta[i] = Wrench::new(about_origin.lane(lane), linear.lane(lane));
+                let per_shift = -per_momentum.0[lane] * per_rate.0[lane] * mass.0[lane];
+                stage.inertial[i] = Inertial {
+                    exerts: exerts.lane(lane),
+                    by_turn: Mat3 { cols: by_turn.cols.map(|column| column.lane(lane)) },
+                    by_shift: [
+                        Mat3::hat(stage.known_momenta[i].linear).scaled(per_rate.0[lane]),
+                        Mat3::IDENTITY.scaled(per_shift),
+                    ],
+                };
+            }
+        }
+    }
+}
+
+/// An angular velocity `T(θ) θ̇` in a frame's own axes.
+struct Turning<R> {
+    velocity: Vec3<R>,
+    /// How it changes with a turn of the frame, in its own axes, which is `T(θ) δθ`, where `θ = Δ + a θ̇` with a known `Δ`.
+    by_turn: Mat3<Vec3<R>>,
+}
+
+impl<R: Real> Turning<R> {
+    #[inline(always)]
+    fn new(theta: Vec3<R>, rate: Vec3<R>, per_rate: R) -> Self {
+        let k = exp_coefficients(theta.dot(theta));
+        let (hat, of_rate_hat) = (Mat3::hat(theta), Mat3::hat(rate));
+        let one = Mat3::diagonal(Vec3::new(R::one(), R::one(), R::one()));
+        let tangent = one - hat.scaled(k.b) + (hat * hat).scaled(k.c);
+        // The change of T with θ, times θ̇.
+        let (once, twice) = (theta.cross(rate), theta.cross(theta.cross(rate)));
+        let by_theta = of_rate_hat.scaled(k.b) - (Mat3::hat(once) + hat * of_rate_hat).scaled(k.c)
+            + Mat3::outer(twice * k.dc - once * k.db, theta + theta);
+        let by_turn = (tangent.scaled(per_rate) + by_theta) * tangent.inverse();
+        Self { velocity: tangent * rate, by_turn }
+    }
+}
