@@ -28,7 +28,7 @@ pub mod write;
 pub use bundled::{Bundled, bundled, bundled_scene};
 pub use error::SceneError;
 pub use file::*;
-pub use model::{MeshChoice, MeshError, Model, ModelRod};
+pub use model::{BodyShape, MeshChoice, MeshError, Model, ModelBody, ModelRod, MotionError, Tied};
 pub use schema::schema;
 
 use document::{Document, KeyPath, Value};
