@@ -134,6 +134,7 @@ fn rows(rod: &RodCheck) -> Vec<(&'static str, String)> {
             rows.push(("error", "not estimated: a mesh twice as fine was not solved".into()))
         }
         Trial::Failed { .. } => rows.push(("error", "not estimated: a trial failed".into())),
+        Trial::Tied => rows.push(("error", "not estimated: joints tie the rod to others".into())),
     }
     rows
 }
@@ -159,7 +160,8 @@ fn rod_json(rod: &RodCheck) -> Value {
         Trial::Solved { estimated_error, strain, .. } => {
             (*estimated_error, strain.map(|[strain, _]| strain), None)
         }
-        Trial::Failed { reason, .. } => (None, None, Some(reason)),
+        Trial::Failed { reason, .. } => (None, None, Some(reason.as_str())),
+        Trial::Tied => (None, None, Some("joints tie the rod to others")),
     };
     let known = |x: f64| x.is_finite().then_some(x);
     json!({

@@ -49,6 +49,11 @@ impl Source {
         })
     }
 
+    /// Where a file is that the scene names.
+    pub fn beside(&self, path: &str) -> PathBuf {
+        self.folder.as_deref().map_or_else(|| PathBuf::from(path), |folder| folder.join(path))
+    }
+
     /// Whether the text is JSON.
     pub fn is_json(&self) -> bool {
         Path::new(&self.file_name).extension().is_some_and(|ending| ending.eq_ignore_ascii_case("json"))

@@ -22,14 +22,16 @@ mod error;
 mod file;
 mod model;
 mod schema;
+mod state_file;
 mod words;
 pub mod write;
 
 pub use bundled::{Bundled, bundled, bundled_scene};
 pub use error::SceneError;
 pub use file::*;
-pub use model::{MeshChoice, MeshError, Model, ModelRod};
+pub use model::{BodyShape, MeshChoice, MeshError, Model, ModelBody, ModelRod, OUTPUT_RATE, Tied};
 pub use schema::schema;
+pub use state_file::{StateError, read_state, state_json};
 
 use document::{Document, KeyPath, Value};
 use std::path::Path;

@@ -67,12 +67,8 @@ fn nearest<'a>(word: &str, known: &[&'a str]) -> Option<&'a str> {
 /// What to do in place of a key or value of the format that this version does not have; `None` for a word that is not one.
 pub(crate) fn later(word: &str) -> Option<&'static str> {
     Some(match word {
-        "bodies" | "joints" => {
-            "remove it: rods stand alone so far; a weight at an end can be given as a load"
-        }
         "eyelets" => "remove it: a support with `fix = [\"position\"]` holds a point of the rod",
         "obstacles" => "remove it: nothing touches a rod so far",
-        "motion" => "remove it: supports stand still so far; give `position` and `orientation`",
         "initial" => "remove it: the search starts from the rest shape",
         "continuation" => "use \"auto\", \"sweep\", \"shooting\", \"multiple_shooting\" or \"equilibrium\"",
         _ => return None,
@@ -83,11 +79,13 @@ pub(crate) fn later(word: &str) -> Option<&'static str> {
 pub(crate) fn example(key: &str) -> Option<&'static str> {
     Some(match key {
         "format" => "begin the file with `format = 1`, so that later versions can read it",
-        "name" => "give the scene a name, as `name = \"suture\"`",
+        "name" => "give it a name, as `name = \"suture\"`",
         "rods" => "add a rod: `[rods.thread]`",
         "youngs_modulus" => "give it in Pa, as `youngs_modulus = 1.5e9`",
         "density" => "give it in kg/m³, as `density = 910.0` (0 for a weightless material)",
-        "shape" => "give `shape = \"circle\"`, \"annulus\", \"ellipse\" or \"rectangle\"",
+        "shape" => {
+            "give `shape = \"circle\"`, \"annulus\", \"ellipse\" or \"rectangle\"; of a body \"ball\", \"capsule\", \"cylinder\" or \"block\""
+        }
         "at" => "give `at = \"start\"`, `at = \"end\"`, or metres from the start",
         "fix" => "say what it holds, as `fix = [\"position\", \"orientation\"]`",
         "s" => "give the place in metres from the rod's start, as `s = 0.1`",
@@ -115,10 +113,33 @@ pub(crate) fn example(key: &str) -> Option<&'static str> {
         "max_force" => "give it in N, as `max_force = 3.3`; leave it out for no limit",
         "max_torque" => "give it in N·m, as `max_torque = 0.02`; leave it out for no limit",
         "friction" => "give Coulomb's coefficient, as `friction = 0.3`; 0 for none",
-        "time_step" | "duration" => "give it in s, as 1e-3",
+        "time_step" | "duration" | "t" => "give it in s, as 1e-3",
+        "mass_damping" => "give it in 1/s, as `mass_damping = 0.5`; 0 for none",
+        "spectral_radius" => "give a number from 0 to 1, as `spectral_radius = 0.8`",
+        "wind" => "write `[wind]` with `velocity = [3.0, 0.0, 0.0]` in m/s",
+        "velocity" => "give it in m/s along the world's axes, as `velocity = [3.0, 0.0, 0.0]`",
+        "angular_velocity" => {
+            "give it in rad/s about the world's axes, as `angular_velocity = [0.0, 0.0, 6.0]`"
+        }
+        "drag" => "write `[rods.thread.drag]` with `linear` in N·s/m², `quadratic` in N·s²/m³, or both",
+        "linear" => "give it in N·s/m², as `linear = 1e-3`; 0 for none",
+        "quadratic" => "give it in N·s²/m³, as `quadratic = 1e-4`; 0 for none",
+        "motion" => "give keyframes, as `motion = [{ t = 0.0 }, { t = 1.0, position = [0.1, 0.0, 0.0] }]`",
+        "bodies" => "write each as `[[bodies]]`, with `name`, `shape` and `density`",
+        "mass" => "give it in kg, as `mass = 1e-3`",
+        "inertia" => "give it in kg·m² about its three principal axes, as `inertia = [2e-9, 2e-9, 1e-9]`",
+        "size" => "give the three edges in metres, as `size = [0.02, 0.01, 0.01]`",
+        "support" => "say what it holds, as `support = { fix = [\"position\", \"orientation\"] }`",
+        "joints" => "write each as `[[joints]]`, with `kind` and `between`",
+        "kind" => "give `kind = \"rigid\"`, \"ball\" or \"hinge\"",
+        "between" => {
+            "name the two, as `between = [{ rod = \"thread\", at = \"end\" }, { body = \"needle\" }]`"
+        }
+        "body" => "name a body, as `body = \"needle\"`",
+        "axis" => "give the hinge's axis in world directions, as `axis = [0.0, 1.0, 0.0]`",
         "output_rate" => "give it in frames a second, as `output_rate = 60`",
         "hand" => "describe the hand in `[coupling.hand]`",
-        "rod" => "name the rod that the hand holds, as `rod = \"thread\"`",
+        "rod" => "name a rod, as `rod = \"thread\"`",
         "gravity" => "give it in m/s², as `gravity = [0.0, 0.0, -9.81]`",
         "position" => "give [x, y, z] in metres, as `position = [0.0, 0.0, 0.1]`",
         "orientation" => {
@@ -128,7 +149,7 @@ pub(crate) fn example(key: &str) -> Option<&'static str> {
         "moment" => "give it in N·m, as `moment = [0.0, 0.0, 1e-5]`",
         "force_per_length" => "give it in N/m, as `force_per_length = [0.0, 0.0, -0.01]`",
         "moment_per_length" => "give it in N, as `moment_per_length = [0.0, 0.0, 1e-3]`",
-        "elements" | "max_iterations" => "give a whole number, as 100",
+        "elements" | "max_iterations" | "newton_iterations" => "give a whole number, as 100",
         "order" => "use 1, 2 or 4",
         "points" => {
             "give points in metres, as `points = [[0.0, 0.0, 0.0], [0.0, 0.0, 0.1], [0.0, 0.05, 0.2]]`"

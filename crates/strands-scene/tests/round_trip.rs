@@ -95,21 +95,77 @@ fn rest() -> impl Strategy<Value = RestFile> {
         })
 }
 
-fn support() -> impl Strategy<Value = SupportFile> {
+fn quaternion() -> impl Strategy<Value = [f64; 4]> {
+    [number(), number(), number(), number()]
+}
+
+fn body_support() -> impl Strategy<Value = BodySupportFile> {
     use FixName::*;
     let fix = prop::sample::subsequence(vec![X, Y, Z, Position, Orientation, Tangent, Twist], 0..4);
-    let quaternion = [number(), number(), number(), number()];
+    let place = || (prop::option::of(vector()), prop::option::of(quaternion()));
+    let keyframe = (number(), place());
+    let keyframe =
+        keyframe.prop_map(|(t, (position, orientation))| KeyframeFile { t, position, orientation });
     let axes = (prop::option::of(vector()), prop::option::of(vector()));
-    (place(), fix, prop::option::of(vector()), prop::option::of(quaternion), axes).prop_map(
-        |(at, fix, position, orientation, (slide_along, turn_about))| SupportFile {
-            at,
+    (fix, place(), axes, prop::collection::vec(keyframe, 0..3)).prop_map(
+        |(fix, (position, orientation), (slide_along, turn_about), motion)| BodySupportFile {
             fix,
             position,
             orientation,
             slide_along,
             turn_about,
+            motion,
         },
     )
+}
+
+fn support() -> impl Strategy<Value = SupportFile> {
+    (place(), body_support()).prop_map(|(at, of_body)| {
+        let BodySupportFile { fix, position, orientation, slide_along, turn_about, motion } = of_body;
+        SupportFile { at, fix, position, orientation, slide_along, turn_about, motion }
+    })
+}
+
+fn body() -> impl Strategy<Value = BodyFile> {
+    use BodyShapeName::*;
+    let shape = prop::sample::select(vec![Ball, Capsule, Cylinder, Block]);
+    let size = || prop::option::of(positive());
+    let shape = (shape, size(), size(), prop::option::of(vector()));
+    let shape = shape.prop_map(|(shape, radius, length, size)| BodyShapeFile { shape, radius, length, size });
+    let vectors = || prop::option::of(vector());
+    (
+        (word(), prop::option::of(shape), size(), size(), vectors()),
+        (vectors(), prop::option::of(quaternion()), vectors(), vectors()),
+        prop::option::of(body_support()),
+    )
+        .prop_map(
+            |(
+                (name, shape, density, mass, inertia),
+                (position, orientation, velocity, angular_velocity),
+                support,
+            )| BodyFile {
+                name,
+                shape,
+                density,
+                mass,
+                inertia,
+                position,
+                orientation,
+                velocity,
+                angular_velocity,
+                support,
+            },
+        )
+}
+
+fn joint() -> impl Strategy<Value = JointFile> {
+    let kind = prop::sample::select(vec![JointName::Rigid, JointName::Ball, JointName::Hinge]);
+    let end = || {
+        (prop::option::of(word()), prop::option::of(place()), prop::option::of(word()))
+            .prop_map(|(rod, at, body)| JointEndFile { rod, at, body })
+    };
+    (kind, [end(), end()], prop::option::of(vector()), prop::option::of(vector()))
+        .prop_map(|(kind, between, position, axis)| JointFile { kind, between, position, axis })
 }
 
 fn load() -> impl Strategy<Value = LoadFile> {
@@ -144,6 +200,7 @@ fn rod() -> impl Strategy<Value = RodFile> {
         (prop::option::of(kinematics), given, prop::option::of(rest()), base),
         prop::collection::vec(support(), 0..3),
         prop::collection::vec(load(), 0..3),
+        prop::option::of((prop::option::of(number()), prop::option::of(number()))),
     )
         .prop_map(
             |(
@@ -156,6 +213,7 @@ fn rod() -> impl Strategy<Value = RodFile> {
                 ),
                 supports,
                 loads,
+                drag,
             )| RodFile {
                 material,
                 length,
@@ -171,6 +229,7 @@ fn rod() -> impl Strategy<Value = RodFile> {
                 orientation,
                 supports,
                 loads,
+                drag: drag.map(|(linear, quadratic)| DragFile { linear, quadratic }),
             },
         )
 }
@@ -233,17 +292,32 @@ fn solver() -> impl Strategy<Value = SolverFile> {
 
 fn dynamics() -> impl Strategy<Value = DynamicsFile> {
     use IntegratorName::*;
-    let integrator = prop::sample::select(vec![Bdf2, ImplicitEuler, GeneralizedAlpha, Midpoint]);
+    let integrator = prop::sample::select(vec![Bdf2, ImplicitEuler, GeneralizedAlpha, Midpoint, Sdirk4]);
     let number = || prop::option::of(positive());
-    (prop::option::of(integrator), [number(), number(), number(), number()], prop::option::of(word()))
-        .prop_map(|(integrator, [time_step, tolerance, duration, output_rate], start)| DynamicsFile {
-            integrator,
-            time_step,
-            tolerance,
-            duration,
-            output_rate,
-            start,
-        })
+    (
+        prop::option::of(integrator),
+        [number(), number(), number(), number(), number(), number()],
+        prop::option::of(0..9_usize),
+        prop::option::of(word()),
+    )
+        .prop_map(
+            |(
+                integrator,
+                [time_step, tolerance, duration, output_rate, spectral_radius, mass_damping],
+                newton_iterations,
+                start,
+            )| DynamicsFile {
+                integrator,
+                spectral_radius,
+                time_step,
+                tolerance,
+                newton_iterations,
+                mass_damping,
+                duration,
+                output_rate,
+                start,
+            },
+        )
 }
 
 fn scene() -> impl Strategy<Value = SceneFile> {
@@ -252,20 +326,34 @@ fn scene() -> impl Strategy<Value = SceneFile> {
         prop::option::of(vector()),
         prop::collection::vec((word(), material()), 0..3),
         prop::collection::vec((word(), rod()), 0..3),
+        (prop::collection::vec(body(), 0..3), prop::collection::vec(joint(), 0..3)),
         (prop::option::of(coupling()), prop::option::of(solver()), prop::option::of(dynamics())),
-        prop::option::of(prop::option::of(positive())),
+        (prop::option::of(vector()), prop::option::of(prop::option::of(positive()))),
     )
-        .prop_map(|(name, gravity, materials, rods, (coupling, solver, dynamics), contact)| SceneFile {
-            format: 1,
-            name,
-            gravity,
-            materials: IndexMap::from_iter(materials),
-            rods: IndexMap::from_iter(rods),
-            coupling,
-            contact: contact.map(|friction| ContactFile { friction }),
-            solver,
-            dynamics,
-        })
+        .prop_map(
+            |(
+                name,
+                gravity,
+                materials,
+                rods,
+                (bodies, joints),
+                (coupling, solver, dynamics),
+                (wind, contact),
+            )| SceneFile {
+                format: 1,
+                name,
+                gravity,
+                materials: IndexMap::from_iter(materials),
+                rods: IndexMap::from_iter(rods),
+                bodies,
+                joints,
+                coupling,
+                wind: wind.map(|velocity| WindFile { velocity }),
+                contact: contact.map(|friction| ContactFile { friction }),
+                solver,
+                dynamics,
+            },
+        )
 }
 
 proptest! {

@@ -191,6 +191,7 @@ impl State {
                 orientation: Some(tip.orientation().to_wxyz()),
                 slide_along: None,
                 turn_about: None,
+                motion: Vec::new(),
             });
         }
         file

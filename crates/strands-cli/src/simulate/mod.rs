@@ -3,24 +3,23 @@
 mod output;
 mod table;
 
-use std::path::PathBuf;
+use std::path::{Path, PathBuf};
 use std::time::Instant;
 
 use indicatif::ProgressBar;
-use strands::assembly::{Assembly, Member, Strand};
-use strands::dynamics::{Integrator, Settings, Simulation, Start};
+use strands::assembly::{Member, Strand};
+use strands::dynamics::{Settings, Simulation, SimulationError, Start};
 use strands::statics::Reaction;
-use strands_scene::write::{End, Frame, FrameEnergy, MovedRod, Ran, motion_json};
-use strands_scene::{DynamicsFile, IntegratorName, MeshChoice, Model};
+use strands_scene::write::{End, Frame, FrameEnergy, MovedBody, MovedRod, Ran, motion_json};
+use strands_scene::{MeshChoice, Model, ModelBody, OUTPUT_RATE, read_state, state_json};
 
 use crate::args::Simulate;
+use crate::source::Source;
 use crate::{Failure, interrupt, overrides, progress, say, source};
 use output::Format;
 
 /// What a scene leaves out.
-const TIME_STEP: f64 = 1e-3;
 const DURATION: f64 = 1.0;
-const OUTPUT_RATE: f64 = 60.0;
 
 /// How a scene is simulated.
 struct Plan {
@@ -51,16 +50,20 @@ pub fn run(options: &Simulate) -> Result<(), Failure> {
     source.text =
         overrides::apply(&source.text, source.is_json(), &options.overrides).map_err(Failure::bad)?;
     let model = source.parse()?.model;
-    let plan = Plan::new(options, &model.dynamics)?;
+    let plan = Plan::new(options, &source, &model)?;
     let mut simulation = started(&model, &plan)?;
     // Until here there is nothing to keep.
     interrupt::catch()?;
     let bar = if options.json { ProgressBar::hidden() } else { progress::bar() };
-    let Run { frames, steps, end, seconds } = stepped(&plan, &mut simulation, &bar);
+    let Run { frames, steps, end, seconds } = stepped(&model, &plan, &mut simulation, &bar);
     bar.finish_and_clear();
-    let simulated = simulation.state().time;
+    let simulated = simulation.state().time - frames[0].time;
     let real_time_factor = if steps == 0 { 0.0 } else { simulated / seconds };
     let ran = Ran { steps, real_time_factor, end };
+    if let Some(path) = &options.save {
+        let text = state_json(simulation.state());
+        std::fs::write(path, text).map_err(|error| Failure::file(path.display(), &error))?;
+    }
     for (path, format) in outputs {
         format.write(path, &model, &frames, &ran)?;
     }
@@ -77,43 +80,37 @@ pub fn run(options: &Simulate) -> Result<(), Failure> {
 }
 
 impl Plan {
-    fn new(options: &Simulate, dynamics: &DynamicsFile) -> Result<Self, Failure> {
-        let integrator = match dynamics.integrator.unwrap_or(IntegratorName::Bdf2) {
-            IntegratorName::Bdf2 => Integrator::Bdf2,
-            IntegratorName::ImplicitEuler => Integrator::ImplicitEuler,
-            IntegratorName::Sdirk4 => Integrator::Sdirk4,
-            name @ (IntegratorName::GeneralizedAlpha | IntegratorName::Midpoint) => {
-                return Err(Failure::bad(format!(
-                    "dynamics.integrator: {} is not there yet; use \"bdf2\", \"sdirk4\" or \"implicit_euler\"",
-                    serde_json::json!(name)
-                )));
-            }
-        };
-        if dynamics.tolerance.is_some() {
-            let message = "dynamics.tolerance: steps are not chosen by their error yet; give `time_step`";
-            return Err(Failure::bad(message));
-        }
+    fn new(options: &Simulate, source: &Source, model: &Model) -> Result<Self, Failure> {
+        let (settings, dynamics) = (model.motion(), &model.dynamics);
         let start = match dynamics.start.as_deref().unwrap_or("equilibrium") {
             "equilibrium" => Start::Equilibrium,
             "rest" => Start::Rest,
-            other => {
-                return Err(Failure::bad(format!(
-                    "dynamics.start: \"{other}\" is neither \"equilibrium\" nor \"rest\""
-                )));
-            }
+            file => saved(&source.beside(file))?,
         };
         let positive = |name: &str, value: f64| {
             let fits = value > 0.0 && value.is_finite();
             if fits { Ok(value) } else { Err(Failure::bad(format!("{name}: give a number greater than 0"))) }
         };
-        let time_step = dynamics.time_step.unwrap_or(TIME_STEP);
         let seconds = options.seconds.or(dynamics.duration).unwrap_or(DURATION);
-        let seconds = positive("--seconds", seconds)?.max(0.5 * time_step);
+        let seconds = positive("--seconds", seconds)?.max(0.5 * settings.time_step);
         let every = options.every.unwrap_or(1.0 / dynamics.output_rate.unwrap_or(OUTPUT_RATE));
-        let every = positive("--every", every)?.max(time_step);
-        let settings = Settings { integrator, time_step, ..Settings::default() };
+        let every = positive("--every", every)?;
+        let every = if settings.local_error.is_some() { every } else { every.max(settings.time_step) };
         Ok(Self { settings, seconds, every, start })
     }
+}
+
+/// The state in a file.
+fn saved(path: &Path) -> Result<Start, Failure> {
+    let text = std::fs::read_to_string(path).map_err(|error| {
+        Failure::bad(format!(
+            "dynamics.start: {} cannot be read ({error}): give \"equilibrium\", \"rest\" or the file of a saved state",
+            path.display()
+        ))
+    })?;
+    let state = read_state(&text)
+        .map_err(|error| Failure::bad(format!("dynamics.start: {}: {error}", path.display())))?;
+    Ok(Start::State(Box::new(state)))
 }
 
 /// All where it starts.
@@ -126,22 +123,35 @@ fn started(model: &Model, plan: &Plan) -> Result<Simulation, Failure> {
             );
         }
     }
-    let strands =
-        model.rods.iter().map(|rod| Strand { viscosity: rod.damping, ..rod.problem.clone().into() });
-    let assembly = Assembly { strands: strands.collect(), ..Assembly::default() };
-    Simulation::new(assembly, plan.settings, plan.start.clone())
-        .map_err(|error| Failure::bad(error.to_string()))
+    let mut simulation = Simulation::new(model.assembly(), plan.settings, plan.start.clone())
+        .map_err(|error| Failure::bad(with_names(model, &error)))?;
+    if let (Start::Rest, Some(velocities)) = (&plan.start, model.velocities()) {
+        simulation.set_velocities(&velocities);
+    }
+    Ok(simulation)
+}
+
+/// An error with the rod's name in place of its number.
+fn with_names(model: &Model, error: &SimulationError) -> String {
+    let text = error.to_string();
+    match error.rod() {
+        Some(rod) => text.replacen(&format!("rod {rod}"), &format!("rod `{}`", model.rods[rod].name), 1),
+        None => text,
+    }
 }
 
 /// Steps until it is done, a step cannot be made, or someone ends it.
-fn stepped(plan: &Plan, simulation: &mut Simulation, bar: &ProgressBar) -> Run {
-    let mut run = Run { frames: vec![frame(simulation, 0, 0.0)], steps: 0, end: End::Finished, seconds: 0.0 };
+fn stepped(model: &Model, plan: &Plan, simulation: &mut Simulation, bar: &ProgressBar) -> Run {
+    let mut run =
+        Run { frames: vec![frame(model, simulation, 0, 0.0)], steps: 0, end: End::Finished, seconds: 0.0 };
     // Nearer to a time than this, it has come.
     let near = if plan.settings.local_error.is_some() { 1e-6 } else { 0.5 } * plan.settings.time_step;
     let (mut iterations, mut residual): (usize, f64) = (0, 0.0);
     let has_come = |simulation: &Simulation, time: f64| simulation.state().time > time - near;
-    while !has_come(simulation, plan.seconds) && run.end == End::Finished {
-        let due = (run.frames.len() as f64 * plan.every).min(plan.seconds);
+    let start = simulation.state().time;
+    let end = start + plan.seconds;
+    while !has_come(simulation, end) && run.end == End::Finished {
+        let due = (start + run.frames.len() as f64 * plan.every).min(end);
         let began = Instant::now();
         let step = match simulation.step_towards(due) {
             Ok(step) => step,
@@ -154,13 +164,13 @@ fn stepped(plan: &Plan, simulation: &mut Simulation, bar: &ProgressBar) -> Run {
         run.steps += 1;
         iterations += step.iterations;
         residual = residual.max(step.residual);
-        bar.set_position((step.time / plan.seconds * progress::WHOLE as f64) as u64);
-        if interrupt::asked() && !has_come(simulation, plan.seconds) {
+        bar.set_position(((step.time - start) / plan.seconds * progress::WHOLE as f64) as u64);
+        if interrupt::asked() && !has_come(simulation, end) {
             run.end = End::Interrupted;
         }
         // The frame that is nearest to its time, and the last.
         if has_come(simulation, due) || run.end == End::Interrupted {
-            run.frames.push(frame(simulation, iterations, residual));
+            run.frames.push(frame(model, simulation, iterations, residual));
             (iterations, residual) = (0, 0.0);
         }
     }
@@ -168,7 +178,7 @@ fn stepped(plan: &Plan, simulation: &mut Simulation, bar: &ProgressBar) -> Run {
 }
 
 /// How all moves now.
-fn frame(simulation: &Simulation, iterations: usize, residual: f64) -> Frame {
+fn frame(model: &Model, simulation: &Simulation, iterations: usize, residual: f64) -> Frame {
     let (assembly, state) = (simulation.assembly(), simulation.state());
     let moved = |(number, strand): (usize, &Strand)| {
         let (nodes, elements) = (assembly.nodes(number), assembly.elements(number));
@@ -189,6 +199,11 @@ fn frame(simulation: &Simulation, iterations: usize, residual: f64) -> Frame {
             .collect();
         rod
     };
+    let body = |(body, frame): (&ModelBody, usize)| MovedBody {
+        name: body.name.clone(),
+        pose: state.poses[frame],
+        velocity: state.velocities[frame],
+    };
     let budget = simulation.energy();
     let energy = FrameEnergy {
         kinetic: budget.kinetic,
@@ -200,7 +215,7 @@ fn frame(simulation: &Simulation, iterations: usize, residual: f64) -> Frame {
     Frame {
         time: state.time,
         rods: assembly.strands.iter().enumerate().map(moved).collect(),
-        bodies: Vec::new(),
+        bodies: model.bodies.iter().zip(assembly.first_body()..).map(body).collect(),
         energy,
         iterations,
         residual,

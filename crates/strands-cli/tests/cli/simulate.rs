@@ -88,11 +88,11 @@ fn a_table_says_how_it_went_and_files_are_written() {
 #[test]
 fn what_cannot_be_simulated_is_said() {
     for (set, said) in [
-        ("dynamics.integrator=\"midpoint\"", "\"midpoint\" is not there yet"),
-        ("dynamics.start=\"there\"", "neither \"equilibrium\" nor \"rest\""),
-        ("dynamics.tolerance=1e-3", "give `time_step`"),
-        ("solver.order=4", "order 2"),
-        ("materials.rubber.density=0.0", "has no mass"),
+        ("dynamics.start=\"there\"", "give \"equilibrium\", \"rest\" or the file of a saved state"),
+        ("dynamics.start=\"cantilever.toml\"", "not the state of a simulation"),
+        ("dynamics={integrator=\"bdf2\", tolerance=1e-3}", "with \"sdirk4\" only, not with \"bdf2\""),
+        ("solver.order=4", "rod `beam`: only rods of order 2"),
+        ("materials.rubber.density=0.0", "rod `beam` has no mass"),
     ] {
         let run = strands(&["simulate", "cantilever.toml", "--set", set]);
         assert_eq!((run.code, run.out.as_str()), (1, ""), "{set}");
@@ -153,4 +153,46 @@ fn catches_interrupts(process: u32) -> bool {
     let status = std::fs::read_to_string(format!("/proc/{process}/status")).unwrap();
     let caught = status.lines().find_map(|line| line.strip_prefix("SigCgt:")).unwrap().trim();
     u64::from_str_radix(caught, 16).unwrap() & 2 != 0
+}
+
+#[test]
+fn a_saved_state_goes_on_to_the_same_bits() {
+    let folder = folder("simulate-state");
+    let path = |name: &str| folder.join(name).to_str().unwrap().to_owned();
+    let whole = strands(&[FALL.as_slice(), &["--seconds", "0.06", "--save", &path("whole.json")]].concat());
+    assert_eq!(whole.code, 0, "{}", whole.err);
+    let half = strands(&[FALL.as_slice(), &["--seconds", "0.03", "--save", &path("half.json")]].concat());
+    assert_eq!(half.code, 0, "{}", half.err);
+    let start = format!("dynamics.start=\"{}\"", path("half.json"));
+    let rest = ["--set", &start, "--seconds", "0.03", "--save", &path("rest.json")];
+    let rest = strands(&[FALL.as_slice(), &rest].concat());
+    assert_eq!(rest.code, 0, "{}", rest.err);
+    let read = |name: &str| std::fs::read_to_string(folder.join(name)).unwrap();
+    assert_eq!(read("rest.json"), read("whole.json"));
+    std::fs::write(folder.join("half.json"), "{}").unwrap();
+    let refused = strands(&[FALL.as_slice(), &["--set", &start]].concat());
+    assert!(refused.code == 1 && refused.err.contains("not the state of a simulation"), "{}", refused.err);
+}
+
+#[test]
+fn steps_that_are_chosen_end_where_frames_are_due() {
+    let choose = ["--set", "dynamics.tolerance=1e-4", "--seconds", "0.1", "--every", "0.02", "--json"];
+    let run = strands(&[FALL.as_slice(), &choose].concat());
+    assert_eq!((run.code, run.err.as_str()), (0, ""));
+    let answer: Value = serde_json::from_str(&run.out).unwrap();
+    for (k, frame) in answer["frames"].as_array().unwrap().iter().enumerate() {
+        assert!((frame["t"].as_f64().unwrap() - 0.02 * k as f64).abs() < 1e-6, "{}", frame["t"]);
+    }
+    assert_eq!(answer["frames"].as_array().unwrap().len(), 6);
+}
+
+#[test]
+fn tied_rods_and_bodies_move_as_one() {
+    let run = strands(&["simulate", "../../scenes/needle_and_thread.toml", "--seconds", "0.05", "--json"]);
+    assert_eq!((run.code, run.err.as_str()), (0, ""));
+    let answer: Value = serde_json::from_str(&run.out).unwrap();
+    let frames = answer["frames"].as_array().unwrap();
+    assert!(frames[0]["bodies"].is_object() || frames[0]["bodies"].is_array(), "{}", frames[0]);
+    let run = strands(&["simulate", "../../scenes/hanging_net.toml", "--seconds", "0.02", "--json"]);
+    assert_eq!((run.code, run.err.as_str()), (0, ""));
 }

@@ -3,20 +3,21 @@
 use super::{Context, load};
 use crate::document::{Document, KeyPath};
 use crate::error::SceneError;
-use crate::file::{FixName, HandFile, Place, RodFile, SupportFile};
-use crate::model::{Held, ModelRod};
+use crate::file::{BodySupportFile, FixName, HandFile, KeyframeFile, Place, RodFile};
+use crate::model::{Held, ModelRod, Target};
 use crate::words;
 use strands::math::Vec3;
 
 /// The six freedoms of a support, in the order of [`strands::statics::Support::fixed`].
 const FREEDOMS: [&str; 6] = ["the tangent", "the tangent", "the twist", "x", "y", "z"];
 
-/// Where and how a rod's supports hold it, in the order of places.
+/// Where and how a rod's supports hold it, in the order of places. One that joints tie to something need not be held.
 pub(super) fn supports(
     context: &Context,
     path: &KeyPath,
     file: &RodFile,
     length: f64,
+    is_tied: bool,
 ) -> Result<Vec<Held>, SceneError> {
     let supports = path.key("supports");
     let mut all: Vec<Held> = Vec::new();
@@ -31,9 +32,9 @@ pub(super) fn supports(
                 all.len() - 1
             }
         };
-        all[at].add(context.document, &place, support)?;
+        all[at].add(context.document, &place, &support.without_place())?;
     }
-    if all.is_empty() {
+    if all.is_empty() && !is_tied {
         let error = context.document.error(path, "nothing holds the rod");
         return Err(error.mend(format!(
             "clamp its start: `[[{path}.supports]]` with `at = \"start\"` and `fix = [\"position\", \"orientation\"]`"
@@ -43,9 +44,25 @@ pub(super) fn supports(
     Ok(all)
 }
 
+/// How a body's support holds it.
+pub(super) fn body(
+    document: &Document,
+    path: &KeyPath,
+    support: &BodySupportFile,
+) -> Result<Held, SceneError> {
+    let mut held = Held::free(0.0);
+    held.add(document, path, support)?;
+    Ok(held)
+}
+
 impl Held {
     /// Takes over what a support holds.
-    fn add(&mut self, document: &Document, path: &KeyPath, support: &SupportFile) -> Result<(), SceneError> {
+    fn add(
+        &mut self,
+        document: &Document,
+        path: &KeyPath,
+        support: &BodySupportFile,
+    ) -> Result<(), SceneError> {
         if support.fix.is_empty() {
             let error = document.error(&path.key("fix"), "the support holds nothing");
             return Err(error.mend("say what it holds, as `fix = [\"position\", \"orientation\"]`"));
@@ -61,7 +78,9 @@ impl Held {
                 fixed[freedom] = true;
             }
         }
-        self.place(document, path, support, &fixed)?;
+        let here = target(document, path, &fixed, support.position, support.orientation)?;
+        self.put(document, path, here)?;
+        self.moves(document, &path.key("motion"), &support.motion, &fixed)?;
         let axis = |key: &str, axis: Option<[f64; 3]>, whole: bool, word: &str| {
             let Some(axis) = axis.map(Vec3::from) else { return Ok(None) };
             if !whole {
@@ -89,42 +108,76 @@ impl Held {
         Ok(())
     }
 
-    /// Takes over the targets of a support.
-    fn place(
+    /// Takes over where a support holds.
+    fn put(&mut self, document: &Document, path: &KeyPath, here: Target) -> Result<(), SceneError> {
+        for (target, position) in self.target.position.iter_mut().zip(here.position) {
+            *target = position.or(*target);
+        }
+        if self.target.rotation.is_some_and(|other| here.rotation.is_some_and(|rotation| rotation != other)) {
+            let place = path.key("orientation");
+            let error = document.error(&place, "two supports of this place give different orientations");
+            return Err(error
+                .mend("tangent and twist of a place are held in one frame: give both the same orientation"));
+        }
+        self.target.rotation = here.rotation.or(self.target.rotation);
+        Ok(())
+    }
+
+    /// Takes over how a support moves.
+    fn moves(
         &mut self,
         document: &Document,
         path: &KeyPath,
-        support: &SupportFile,
+        frames: &[KeyframeFile],
         fixed: &[bool; 6],
     ) -> Result<(), SceneError> {
-        let unused = |key: &str, words: &str| {
-            let error = document.error(&path.key(key), format!("the support does not hold the {key}"));
-            error.mend(format!("add {words} to `fix`, or remove `{key}`"))
-        };
-        if let Some(position) = support.position {
-            if !fixed[3..].contains(&true) {
-                return Err(unused("position", "\"position\""));
-            }
-            for i in (0..3).filter(|i| fixed[3 + i]) {
-                self.position[i] = Some(position[i]);
-            }
+        if !frames.is_empty() && !self.motion.is_empty() {
+            let error = document.error(path, "two supports of this place move");
+            return Err(error.mend("write them as one support, with one `motion`"));
         }
-        if let Some(orientation) = support.orientation {
-            let place = path.key("orientation");
-            if !fixed[..3].contains(&true) {
-                return Err(unused("orientation", "\"orientation\", \"tangent\" or \"twist\""));
+        for (i, frame) in frames.iter().enumerate() {
+            let place = path.index(i);
+            if let Some((before, _)) = self.motion.last().filter(|(before, _)| *before >= frame.t) {
+                let message = format!("t does not grow: {} comes after {before}", frame.t);
+                return Err(document
+                    .error(&place.key("t"), message)
+                    .mend("order the keyframes by growing t"));
             }
-            let rotation = document.quaternion(&place, orientation)?.to_matrix();
-            if self.rotation.is_some_and(|other| other != rotation) {
-                let error = document.error(&place, "two supports of this place give different orientations");
-                return Err(error.mend(
-                    "tangent and twist of a place are held in one frame: give both the same orientation",
-                ));
-            }
-            self.rotation = Some(rotation);
+            let then = target(document, &place, fixed, frame.position, frame.orientation)?;
+            self.motion.push((frame.t, then));
         }
         Ok(())
     }
+}
+
+/// Where a support holds what it holds, as far as it is given.
+fn target(
+    document: &Document,
+    path: &KeyPath,
+    fixed: &[bool; 6],
+    position: Option<[f64; 3]>,
+    orientation: Option<[f64; 4]>,
+) -> Result<Target, SceneError> {
+    let unused = |key: &str, words: &str| {
+        let error = document.error(&path.key(key), format!("the support does not hold the {key}"));
+        error.mend(format!("add {words} to `fix`, or remove `{key}`"))
+    };
+    let mut target = Target::default();
+    if let Some(position) = position {
+        if !fixed[3..].contains(&true) {
+            return Err(unused("position", "\"position\""));
+        }
+        for i in (0..3).filter(|i| fixed[3 + i]) {
+            target.position[i] = Some(position[i]);
+        }
+    }
+    if let Some(orientation) = orientation {
+        if !fixed[..3].contains(&true) {
+            return Err(unused("orientation", "\"orientation\", \"tangent\" or \"twist\""));
+        }
+        target.rotation = Some(document.quaternion(&path.key("orientation"), orientation)?.to_matrix());
+    }
+    Ok(target)
 }
 
 /// Which freedoms a word of `fix` holds.

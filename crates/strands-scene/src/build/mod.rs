@@ -1,7 +1,9 @@
 //! From a scene as written to a model: every number checked, every default filled in.
 
+mod body;
 mod check;
 mod hold;
+mod joint;
 mod load;
 mod profile;
 mod rest;
@@ -55,6 +57,7 @@ pub(crate) fn model(
     if file.rods.is_empty() {
         return Err(document.error(&KeyPath::of("rods"), "there is no rod").mend("add one: `[rods.thread]`"));
     }
+    joint::check_names(&context)?;
     let mut elements = 0;
     for (name, rod) in &file.rods {
         rods.push(rod::rod(&context, name, rod, &mut elements)?);
@@ -62,5 +65,16 @@ pub(crate) fn model(
     if let Some(coupling) = &file.coupling {
         hold::hand(document, &coupling.hand, &mut rods)?;
     }
-    Ok(Model { name: file.name.clone(), gravity: context.gravity, rods, settings, dynamics })
+    let mut model = Model {
+        name: file.name.clone(),
+        gravity: context.gravity,
+        rods,
+        bodies: body::bodies(&context)?,
+        joints: Vec::new(),
+        wind: file.wind.as_ref().map_or(Vec3::ZERO, |wind| wind.velocity.into()),
+        settings,
+        dynamics,
+    };
+    model.joints = joint::joints(&context, &model)?;
+    Ok(model)
 }

@@ -1,10 +1,11 @@
 //! One rod: its description, its mesh, its problem.
 
-use super::{Context, hold, load, profile, rest};
+use super::{Context, hold, joint, load, profile, rest};
 use crate::document::KeyPath;
 use crate::error::SceneError;
-use crate::file::{KinematicsName, RodFile};
+use crate::file::{DragFile, KinematicsName, RodFile};
 use crate::model::{MAX_ELEMENTS, MeshChoice, ModelRod, breaks};
+use strands::assembly::Drag;
 use strands::math::Pose;
 use strands::rod::{Kinematics, Rod, RodDescription, RodError};
 
@@ -33,9 +34,17 @@ pub(super) fn rod(
         base: base(context, &path, file, unloaded.start)?,
     };
     let loads = load::loads(context, &path, file, length)?;
-    let supports = hold::supports(context, &path, file, length)?;
-    let breaks = breaks(&loads, &supports);
+    let ties = joint::places(context, name, length)?;
+    let supports = hold::supports(context, &path, file, length, !ties.is_empty())?;
+    let breaks = breaks(&loads, &supports, &ties);
     let mesh = mesh_choice(context, &path, file, total)?;
+    if matches!(mesh, MeshChoice::Tolerance(_)) && !ties.is_empty() {
+        let error = document.error(
+            &path.key("tolerance"),
+            "the mesh of a rod that joints tie to others cannot be chosen for a tolerance",
+        );
+        return Err(error.mend(format!("write `elements = {DEFAULT_ELEMENTS}` in its place")));
+    }
     let elements = match mesh {
         MeshChoice::Elements(elements) => elements,
         MeshChoice::Tolerance(_) => DEFAULT_ELEMENTS.max(2 * (description.breaks().len() + breaks.len() + 1)),
@@ -52,7 +61,21 @@ pub(super) fn rod(
         .map_err(|error| document.error(&path.key("loads"), error.to_string()))?;
     let material = file.material.as_ref().and_then(|name| context.file.materials.get(name));
     let damping = material.and_then(|material| material.damping).unwrap_or(0.0);
-    Ok(ModelRod { name: name.to_owned(), problem, hand: None, mesh, damping, loads, supports })
+    let drag = file
+        .drag
+        .as_ref()
+        .map_or(Ok(Drag::default()), |written| drag(context, &path.key("drag"), written))?;
+    Ok(ModelRod { name: name.to_owned(), problem, hand: None, mesh, damping, drag, loads, supports, ties })
+}
+
+fn drag(context: &Context, path: &KeyPath, written: &DragFile) -> Result<Drag, SceneError> {
+    let document = context.document;
+    if written.linear.is_none() && written.quadratic.is_none() {
+        let error = document.error(path, "the drag is empty");
+        return Err(error.mend("give `linear` in N·s/m², `quadratic` in N·s²/m³, or both"));
+    }
+    let number = |key: &str, value: Option<f64>| document.not_negative(&path.key(key), value.unwrap_or(0.0));
+    Ok(Drag { linear: number("linear", written.linear)?, quadratic: number("quadratic", written.quadratic)? })
 }
 
 /// The frame of the rod's start.

@@ -2,7 +2,9 @@
 
 use crate::document::{Document, KeyPath};
 use crate::error::SceneError;
-use crate::file::{JacobianName, MaterialFile, MethodName, SceneFile, SchemeName, SolverFile};
+use crate::file::{
+    DynamicsFile, IntegratorName, JacobianName, MaterialFile, MethodName, SceneFile, SchemeName, SolverFile,
+};
 use indexmap::IndexMap;
 use strands::rod::{Material, Order};
 use strands::statics::{Jacobian, Method, Scheme, Settings};
@@ -130,5 +132,24 @@ pub(super) fn check_motion(document: &Document, file: &SceneFile) -> Result<(), 
         let error = document.error(&table.key("tolerance"), "both `time_step` and `tolerance` are given");
         return Err(error.mend("keep `time_step` for equal steps, or `tolerance` for steps that are chosen"));
     }
+    if let Some(damping) = dynamics.mass_damping {
+        document.not_negative(&table.key("mass_damping"), damping)?;
+    }
+    if dynamics.newton_iterations == Some(0) {
+        let error = document.error(&table.key("newton_iterations"), "a step needs at least one iteration");
+        return Err(error.mend("1 or 2 do for short steps; leave it out for as many as the tolerance takes"));
+    }
+    spectral_radius(document, &table, dynamics)
+}
+
+fn spectral_radius(document: &Document, table: &KeyPath, dynamics: &DynamicsFile) -> Result<(), SceneError> {
+    let Some(radius) = dynamics.spectral_radius else { return Ok(()) };
+    let place = table.key("spectral_radius");
+    if dynamics.integrator != Some(IntegratorName::GeneralizedAlpha) {
+        let error =
+            document.error(&place, "`spectral_radius` goes with the integrator \"generalized_alpha\" only");
+        return Err(error.mend("write `integrator = \"generalized_alpha\"`, or remove it"));
+    }
+    document.require(&place, radius, (0.0..=1.0).contains(&radius), "must lie from 0 to 1")?;
     Ok(())
 }

@@ -1,21 +1,44 @@
-//! What has no effect: keys for contact, loads that go straight into a support, rods that nothing loads.
+//! What has no effect: keys for contact, wind without drag, velocities where motion starts at rest, loads that go straight into a support, rods that
+//! nothing loads.
 
 use super::{Remarks, View, metres};
 use crate::document::KeyPath;
 use crate::file::SceneFile;
+use crate::model::Model;
+use strands::assembly::Drag;
 use strands::math::Vec6;
 
 /// How far a support may be from where the unloaded rod is, as a part of the length and in rad, and still leave it as it is.
 const AS_IT_IS: f64 = 1e-9;
 
-/// Looks at the keys for contact.
-pub(super) fn look(remarks: &mut Remarks<'_>, file: &SceneFile) {
+/// Looks at the keys for contact, wind and velocities.
+pub(super) fn look(remarks: &mut Remarks<'_>, file: &SceneFile, model: &Model) {
     if file.contact.is_some() {
         remarks.note(
             &KeyPath::of("contact"),
             "`[contact]` has no effect: a rod touches nothing".to_owned(),
             "it is kept for later versions, and may stay",
         );
+    }
+    if file.wind.is_some() && model.rods.iter().all(|rod| rod.drag == Drag::default()) {
+        remarks.note(
+            &KeyPath::of("wind"),
+            "`[wind]` has no effect: no rod has drag".to_owned(),
+            "give a rod `[rods.thread.drag]` with `linear` or `quadratic`",
+        );
+    }
+    if model.dynamics.start.as_deref() == Some("rest") {
+        return;
+    }
+    for (i, body) in file.bodies.iter().enumerate() {
+        let given = [("velocity", body.velocity), ("angular_velocity", body.angular_velocity)];
+        if let Some((key, _)) = given.into_iter().find(|(_, velocity)| velocity.is_some()) {
+            remarks.note(
+                &KeyPath::of("bodies").index(i).key(key),
+                format!("`{key}` has no effect: the motion does not start from \"rest\""),
+                "write `start = \"rest\"` in `[dynamics]`",
+            );
+        }
     }
 }
 
@@ -44,7 +67,7 @@ pub(super) fn look_at_rod(remarks: &mut Remarks<'_>, view: &View<'_>) {
     });
     let loaded =
         loads.world.iter().chain(&loads.body).any(|load| *load != Vec6::ZERO) || !loads.pulls().is_empty();
-    if !moved && !loaded && view.rod.hand.is_none() {
+    if !moved && !loaded && view.rod.hand.is_none() && !view.rod.is_tied() {
         remarks.note(
             &view.path,
             "nothing loads the rod: it keeps its rest shape".to_owned(),

@@ -79,12 +79,15 @@ impl Scene {
             // What follows from a slip is not worth a word of its own.
             if !slipped {
                 reach::look_at_loads(&mut remarks, &view);
-                buckling::look(&mut remarks, &view);
+                // What ties it holds it too.
+                if !view.rod.is_tied() {
+                    buckling::look(&mut remarks, &view);
+                }
                 mesh::look(&mut remarks, &view);
             }
             effect::look_at_rod(&mut remarks, &view);
         }
-        effect::look(&mut remarks, &self.file);
+        effect::look(&mut remarks, &self.file, &self.model);
         remarks.sorted()
     }
 

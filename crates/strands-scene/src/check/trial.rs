@@ -30,6 +30,8 @@ pub enum Trial {
         /// What is at fault, as far as it is known.
         fault: Fault,
     },
+    /// There was none: joints tie the rod to others, and it does not come to rest alone.
+    Tied,
 }
 
 /// What a failed trial is the fault of.
@@ -45,6 +47,9 @@ pub enum Fault {
 
 /// Tries a rod, on the mesh for its tolerance where it gives one: the rod on that mesh, what it was solved with, and what was found.
 pub(super) fn trial(model: &Model, rod: &ModelRod) -> (ModelRod, Settings, Trial) {
+    if rod.is_tied() {
+        return (rod.clone(), model.settings, Trial::Tied);
+    }
     let mut model = model.clone();
     match model.refine(&rod.name) {
         // Without an equilibrium on one of the meshes there is none to be expected on the first one either, and its failure says why.
@@ -126,6 +131,7 @@ pub(super) fn look(remarks: &mut Remarks<'_>, view: &View<'_>, numbers: &Numbers
     let rod = &view.rod.problem.rod;
     let (error, strain) = match trial {
         Trial::Solved { estimated_error, strain, .. } => (*estimated_error, *strain),
+        Trial::Tied => return,
         // The supports have been told of.
         Trial::Failed { fault: Fault::Supports, .. } => return,
         Trial::Failed { reason, fault } => {

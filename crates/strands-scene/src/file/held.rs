@@ -40,6 +40,24 @@ pub struct SupportFile {
     /// An axis in world directions about which it lets the rod turn, though it holds the orientation otherwise: a hinge.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub turn_about: Option<[f64; 3]>,
+    /// How it moves in a simulation: keyframes at growing times, between them along a straight line and by the shortest turn, before the first and
+    /// after the last at rest. A static solve has it where it is at `t = 0`.
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
+    pub motion: Vec<KeyframeFile>,
+}
+
+/// Where a support is at a time.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields, expecting = "a keyframe, as { t = 0.5, position = [0.0, 0.0, 0.1] }")]
+pub struct KeyframeFile {
+    /// When, s.
+    pub t: f64,
+    /// Where it then holds, m. Default: the support's own `position`.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub position: Option<[f64; 3]>,
+    /// The frame that it then holds, a unit quaternion `[w, x, y, z]`. Default: the support's own `orientation`.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub orientation: Option<[f64; 4]>,
 }
 
 /// What a support holds.

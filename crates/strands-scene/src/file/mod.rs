@@ -4,16 +4,22 @@
 //! rod's start. Nothing here is checked beyond its type: that is done when the [`Model`](crate::Model) is built.
 
 mod held;
+mod network;
 mod rod;
 mod settings;
 
-pub use held::{CouplingFile, FixName, FrameName, HandError, HandFile, LoadFile, Place, SupportFile};
+pub use held::{
+    CouplingFile, FixName, FrameName, HandError, HandFile, KeyframeFile, LoadFile, Place, SupportFile,
+};
+pub use network::{
+    BodyFile, BodyShapeFile, BodyShapeName, BodySupportFile, JointEndFile, JointFile, JointName,
+};
 pub use rod::{
-    HelixFile, KinematicsName, RestFile, RestSample, RodFile, SectionFile, SectionsFile, ShapeName,
+    DragFile, HelixFile, KinematicsName, RestFile, RestSample, RodFile, SectionFile, SectionsFile, ShapeName,
     StiffnessFile,
 };
 pub use settings::{
-    ContactFile, DynamicsFile, IntegratorName, JacobianName, MethodName, SchemeName, SolverFile,
+    ContactFile, DynamicsFile, IntegratorName, JacobianName, MethodName, SchemeName, SolverFile, WindFile,
 };
 
 use indexmap::IndexMap;
@@ -38,9 +44,18 @@ pub struct SceneFile {
     pub materials: IndexMap<String, MaterialFile>,
     /// Rods by name; at least one.
     pub rods: IndexMap<String, RodFile>,
+    /// Rigid bodies. They have no effect on a static solve.
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
+    pub bodies: Vec<BodyFile>,
+    /// What ties rods to each other and to bodies.
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
+    pub joints: Vec<JointFile>,
     /// How a hand holds a rod.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub coupling: Option<CouplingFile>,
+    /// How the medium around moves. It acts on rods that have `drag`, and has no effect on a static solve.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub wind: Option<WindFile>,
     /// Contact. A static solve knows no contact: it has no effect on it.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub contact: Option<ContactFile>,

@@ -54,6 +54,22 @@ pub struct RodFile {
     /// What acts on it besides gravity.
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
     pub loads: Vec<LoadFile>,
+    /// What slows it down in a simulation: the drag of the medium around. Default: none.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub drag: Option<DragFile>,
+}
+
+/// The drag of the medium around a rod, per unit length.
+#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields, expecting = "a table")]
+pub struct DragFile {
+    /// Force over length and speed through the medium, N·s/m². Default 0.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub linear: Option<f64>,
+    /// Force over length and the square of the speed across the rod, N·s²/m³: half of density, drag coefficient and diameter. It acts across
+    /// the rod. Default 0.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub quadratic: Option<f64>,
 }
 
 /// Which strains are free.

@@ -76,6 +76,14 @@ pub struct ContactFile {
     pub friction: Option<f64>,
 }
 
+/// Wind, or a current: how the medium around moves.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields, expecting = "a table")]
+pub struct WindFile {
+    /// Its velocity in world axes, m/s.
+    pub velocity: [f64; 3],
+}
+
 /// How to simulate motion. It has no effect on a static solve.
 #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields, expecting = "a table")]
@@ -83,12 +91,21 @@ pub struct DynamicsFile {
     /// The time integrator. Default "bdf2".
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub integrator: Option<IntegratorName>,
+    /// What is left after a step of a motion that is much faster, from 0 to 1; with "generalized_alpha" only. Default 0.8.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub spectral_radius: Option<f64>,
     /// The time step, s.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub time_step: Option<f64>,
     /// The local error that the time step is chosen for, in place of `time_step`.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub tolerance: Option<f64>,
+    /// A set number of Newton iterations for each stage of a step, for steps of bounded cost. Default: as many as the tolerance takes.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub newton_iterations: Option<usize>,
+    /// How fast everything loses its momentum, 1/s. Default 0.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub mass_damping: Option<f64>,
     /// How long to simulate, s.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub duration: Option<f64>,

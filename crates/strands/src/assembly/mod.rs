@@ -195,6 +195,15 @@ impl Assembly {
         }
     }
 
+    /// Whether its joints can be.
+    ///
+    /// # Errors
+    /// The first that cannot: one that names a frame that there is not, closes a ring of joints alone, ties together two places that are both held, or
+    /// whose two sides are apart at rest.
+    pub fn check(&self) -> Result<(), AssemblyError> {
+        Ties::new(self)?.put_together(self, &mut self.rest_poses())
+    }
+
     /// All frames when nothing acts on the rods.
     pub fn rest_poses(&self) -> Vec<Pose> {
         let rods = self.strands.iter().flat_map(|strand| strand.problem.rod.rest_poses());

@@ -98,3 +98,16 @@ pub enum SimulationError {
     #[error("no equilibrium to start from was found: {0}")]
     NoRest(StepFailure),
 }
+
+impl SimulationError {
+    /// The rod that it is about, whose number its text names as `rod 0`.
+    pub fn rod(&self) -> Option<usize> {
+        match self {
+            Self::Law(rod)
+            | Self::NotHeldThere { rod, .. }
+            | Self::NoEquilibrium { rod, .. }
+            | Self::Massless { what: "rod", which: rod } => Some(*rod),
+            _ => None,
+        }
+    }
+}

@@ -219,8 +219,16 @@ impl Simulation {
     pub fn restore(&mut self, state: State) -> Result<(), SimulationError> {
         let needed = self.assembly.frames();
         let got = state.poses.len();
+        let past = match &state.past {
+            Past::None => [needed; 2],
+            Past::Before { poses, momenta } => [poses.len(), momenta.len()],
+            Past::Rates { momentum, mean_velocity, mean_momentum } => {
+                [momentum.len(), mean_velocity.len().max(mean_momentum.len())]
+            }
+        };
         let fits = got == needed
             && [state.velocities.len(), state.momenta.len()] == [needed; 2]
+            && past == [needed; 2]
             && state.wrenches.len() == self.state.wrenches.len();
         if !fits {
             return Err(SimulationError::Unfit { got, needed });

@@ -1,9 +1,18 @@
-//! A scene as understood: rods, loads and supports in SI units, validated, ready to solve.
+//! A scene as understood: rods, bodies, joints, loads and supports in SI units, validated, ready to solve and to move.
+
+mod body;
+mod held;
+mod motion;
+
+pub use body::{BodyShape, ModelBody};
+pub(crate) use held::{Held, Target};
+pub use motion::OUTPUT_RATE;
 
 use crate::file::DynamicsFile;
+use strands::assembly::{Drag, Joint};
 use strands::coupling::VirtualCoupling;
 use strands::load::{DistributedLoad, DistributedPull, NodalLoads, PointLoad, PointPull};
-use strands::math::{Mat3, Pose, Vec3};
+use strands::math::Vec3;
 use strands::rod::{Order, Rod, RodError};
 use strands::statics::{Problem, RefineError, Refined, Settings, Support, refine};
 use thiserror::Error;
@@ -20,6 +29,12 @@ pub struct Model {
     pub gravity: Vec3,
     /// The rods, in the order of the file.
     pub rods: Vec<ModelRod>,
+    /// The rigid bodies, in the order of the file.
+    pub bodies: Vec<ModelBody>,
+    /// What ties rods and bodies together, in the order of the file.
+    pub joints: Vec<Joint>,
+    /// How the medium around moves, world axes, m/s.
+    pub wind: Vec3,
     /// How to solve.
     pub settings: Settings,
     /// How to simulate motion, as the scene says it.
@@ -40,22 +55,12 @@ pub struct ModelRod {
     pub mesh: MeshChoice,
     /// The Kelvin–Voigt damping time of its material, s.
     pub damping: f64,
+    /// What the medium around takes.
+    pub drag: Drag,
     pub(crate) loads: Loads,
     pub(crate) supports: Vec<Held>,
-}
-
-/// How a place of a rod is held, apart from any mesh. Targets that are not given are those of the unloaded rod, on whichever mesh it is.
-#[derive(Clone, Copy, Debug)]
-pub(crate) struct Held {
-    /// Where along the rod, m.
-    pub s: f64,
-    pub fixed: [bool; 6],
-    /// Targets of x, y and z.
-    pub position: [Option<f64>; 3],
-    /// Target of the frame.
-    pub rotation: Option<Mat3>,
-    pub slide_along: Option<Vec3>,
-    pub turn_about: Option<Vec3>,
+    /// Where joints are, m.
+    pub(crate) ties: Vec<f64>,
 }
 
 /// How a rod's mesh is chosen.
@@ -77,6 +82,13 @@ pub struct MeshError {
     #[source]
     pub reason: RefineError,
 }
+
+/// What cannot be solved rod by rod.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Error)]
+#[error(
+    "joints tie the rods of this scene, and each alone has no equilibrium; rods that are tied by joints come to rest with `strands simulate`, start = \"equilibrium\""
+)]
+pub struct Tied;
 
 /// What acts on a rod, apart from any mesh.
 #[derive(Clone, Debug)]
@@ -115,6 +127,14 @@ impl Model {
         Ok(())
     }
 
+    /// Makes sure that each of its rods can be solved by itself.
+    ///
+    /// # Errors
+    /// Where joints tie rods to each other or to bodies: what is tied comes to rest together.
+    pub fn each_alone(&self) -> Result<(), Tied> {
+        if self.rods.iter().any(ModelRod::is_tied) { Err(Tied) } else { Ok(()) }
+    }
+
     /// The rod of a name.
     pub fn rod(&self, name: &str) -> Option<&ModelRod> {
         self.rods.iter().find(|rod| rod.name == name)
@@ -122,48 +142,23 @@ impl Model {
 }
 
 impl ModelRod {
+    /// Whether joints tie it to something. Then it cannot be solved alone.
+    pub fn is_tied(&self) -> bool {
+        !self.ties.is_empty()
+    }
+
     fn refine(&self, tolerance: f64, settings: &Settings) -> Result<Refined, RefineError> {
         let rod = &self.problem.rod;
         let order: Order = rod.order();
-        let breaks = breaks(&self.loads, &self.supports);
+        let breaks = breaks(&self.loads, &self.supports, &self.ties);
         let pose = |rod: Rod| self.loads.problem(rod, &self.supports);
         refine(rod.description(), order, &breaks, tolerance, MAX_ELEMENTS, settings, pose)
     }
 }
 
-/// Where the mesh must have nodes for loads and supports, m.
-pub(crate) fn breaks(loads: &Loads, supports: &[Held]) -> Vec<f64> {
-    loads.breaks().into_iter().chain(supports.iter().map(|held| held.s)).collect()
-}
-
-impl Held {
-    /// A place that nothing holds.
-    pub fn free(s: f64) -> Self {
-        Self {
-            s,
-            fixed: [false; 6],
-            position: [None; 3],
-            rotation: None,
-            slide_along: None,
-            turn_about: None,
-        }
-    }
-
-    /// The support, where the unloaded rod has the frame `rest` there.
-    fn support(&self, rest: Pose) -> Support {
-        let mut pose = Pose { rotation: self.rotation.unwrap_or(rest.rotation), ..rest };
-        for (i, target) in self.position.iter().enumerate() {
-            pose.position[i] = target.unwrap_or(pose.position[i]);
-        }
-        let mut support = Support::of(self.fixed, pose);
-        if let Some(axis) = self.slide_along {
-            support = support.sliding_along(axis);
-        }
-        if let Some(axis) = self.turn_about {
-            support = support.turning_about(axis);
-        }
-        support
-    }
+/// Where the mesh must have nodes for loads, supports and joints, m.
+pub(crate) fn breaks(loads: &Loads, supports: &[Held], ties: &[f64]) -> Vec<f64> {
+    loads.breaks().into_iter().chain(supports.iter().map(|held| held.s)).chain(ties.iter().copied()).collect()
 }
 
 impl Loads {

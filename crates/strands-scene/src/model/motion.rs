@@ -1,0 +1,117 @@
+//! What moves in a scene, and how steps are made.
+
+use super::{Model, ModelBody, ModelRod};
+use crate::file::IntegratorName;
+use strands::assembly::{Assembly, JointKind, Keyframes, Member, Strand};
+use strands::dynamics::{self, Integrator};
+use strands::math::{Vec3, Vec6};
+
+/// What generalised-α leaves after a step of a motion that is much faster, where the scene does not say it.
+const SPECTRAL_RADIUS: f64 = 0.8;
+
+/// Frames a second, where the scene does not say it.
+pub const OUTPUT_RATE: f64 = 60.0;
+
+impl Model {
+    /// Its rods, bodies and joints, what moves them and what slows them down, to simulate.
+    pub fn assembly(&self) -> Assembly {
+        let rods = self.rods.iter().enumerate().flat_map(|(number, rod)| rod.moving(number));
+        let bodies = self.bodies.iter().enumerate().filter_map(|(number, body)| body.moving(number));
+        Assembly {
+            strands: self.rods.iter().map(ModelRod::strand).collect(),
+            bodies: self.bodies.iter().map(|body| body.body.clone()).collect(),
+            joints: self.joints.clone(),
+            moving: rods.chain(bodies).collect(),
+            wind: self.wind,
+        }
+    }
+
+    /// How steps are made. What the scene does not say is as in [`dynamics::Settings::default`]; steps that are chosen by their error are no longer than
+    /// from one frame of the output to the next.
+    pub fn motion(&self) -> dynamics::Settings {
+        let (written, default) = (&self.dynamics, dynamics::Settings::default());
+        let chosen = written.tolerance.is_some();
+        let integrator = match written.integrator {
+            None if chosen => Integrator::Sdirk4,
+            None => default.integrator,
+            Some(IntegratorName::Bdf2) => Integrator::Bdf2,
+            Some(IntegratorName::ImplicitEuler) => Integrator::ImplicitEuler,
+            Some(IntegratorName::GeneralizedAlpha) => Integrator::GeneralizedAlpha {
+                spectral_radius: written.spectral_radius.unwrap_or(SPECTRAL_RADIUS),
+            },
+            Some(IntegratorName::Midpoint) => Integrator::Midpoint,
+            Some(IntegratorName::Sdirk4) => Integrator::Sdirk4,
+        };
+        let longest =
+            if chosen { 1.0 / written.output_rate.unwrap_or(OUTPUT_RATE) } else { default.time_step };
+        dynamics::Settings {
+            integrator,
+            time_step: written.time_step.unwrap_or(longest),
+            local_error: written.tolerance,
+            bounded: written.newton_iterations.is_some(),
+            max_iterations: written.newton_iterations.unwrap_or(default.max_iterations),
+            mass_damping: written.mass_damping.unwrap_or(default.mass_damping),
+            ..default
+        }
+    }
+
+    /// How all frames of the [`assembly`](Self::assembly) set off where the motion starts from rest, for
+    /// [`set_velocities`](dynamics::Simulation::set_velocities): bodies as they say, rods at rest but for the nodes that joints tie to such a body.
+    /// `None` where nothing sets off.
+    pub fn velocities(&self) -> Option<Vec<Vec6>> {
+        let still = |body: &ModelBody| body.velocity == Vec3::ZERO && body.angular_velocity == Vec3::ZERO;
+        if self.bodies.iter().all(still) {
+            return None;
+        }
+        let assembly = self.assembly();
+        let rest = assembly.rest_poses();
+        let mut velocities = vec![Vec6::ZERO; rest.len()];
+        let first = assembly.first_body();
+        for (body, frame) in self.bodies.iter().zip(first..) {
+            let angular = rest[frame].rotation.transpose_mul(body.angular_velocity);
+            velocities[frame] = Vec6::new(angular, body.velocity);
+        }
+        for joint in &self.joints {
+            let [a, b] = joint.between.map(|attachment| attachment.member);
+            let ((Member::Body(body), node @ Member::Node { .. })
+            | (node @ Member::Node { .. }, Member::Body(body))) = (a, b)
+            else {
+                continue;
+            };
+            let Some(frame) = assembly.frame(node) else { continue };
+            let of = &self.bodies[body];
+            let arm = rest[frame].position - rest[first + body].position;
+            // About a ball the rod's end need not turn with the body.
+            let spin = if joint.kind == JointKind::Ball { Vec3::ZERO } else { of.angular_velocity };
+            velocities[frame] = Vec6::new(
+                rest[frame].rotation.transpose_mul(spin),
+                of.velocity + of.angular_velocity.cross(arm),
+            );
+        }
+        Some(velocities)
+    }
+}
+
+impl ModelRod {
+    fn strand(&self) -> Strand {
+        Strand { problem: self.problem.clone(), viscosity: self.damping, drag: self.drag }
+    }
+
+    /// How its supports move, where it is the rod of a number.
+    fn moving(&self, rod: usize) -> Vec<Keyframes> {
+        let mesh = &self.problem.rod;
+        let moving = self.supports.iter().filter(|held| !held.motion.is_empty());
+        let keyframes = moving.filter_map(|held| {
+            let node = mesh.mesh().node_at(held.s)?;
+            held.keyframes(Member::Node { rod, node }, mesh.rest_poses()[node])
+        });
+        keyframes.collect()
+    }
+}
+
+impl ModelBody {
+    /// How its support moves, where it is the body of a number.
+    fn moving(&self, body: usize) -> Option<Keyframes> {
+        self.held.as_ref()?.keyframes(Member::Body(body), self.body.pose)
+    }
+}

@@ -1,0 +1,132 @@
+//! States of simulations as files, from which they go on to the same bits.
+
+use serde::{Deserialize, Serialize};
+use strands::dynamics::{Past, Power, State};
+use strands::math::{Mat3, Pose, Vec3, Vec6};
+use thiserror::Error;
+
+/// What a state's file is not.
+#[derive(Debug, Error)]
+pub enum StateError {
+    /// It has not the form of one.
+    #[error("not the state of a simulation: {0}; give a file that `strands simulate --save` has written")]
+    Form(#[from] serde_json::Error),
+    /// It is of another version.
+    #[error("a state of format {0}, and this program reads format 1")]
+    Format(u32),
+}
+
+type Row<const N: usize> = Vec<[f64; N]>;
+
+/// A state as written. Of a pose the columns of its rotation, then its position; of all else the angular part, then the linear.
+#[derive(Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+struct Written {
+    format: u32,
+    time: f64,
+    poses: Row<12>,
+    velocities: Row<6>,
+    momenta: Row<6>,
+    wrenches: Row<6>,
+    dissipated: f64,
+    worked: f64,
+    power: [f64; 2],
+    next_step: f64,
+    past: WrittenPast,
+}
+
+#[derive(Serialize, Deserialize)]
+#[serde(rename_all = "snake_case", deny_unknown_fields)]
+enum WrittenPast {
+    None,
+    Before { poses: Row<12>, momenta: Row<6> },
+    Rates { momentum: Row<6>, mean_velocity: Row<6>, mean_momentum: Row<6> },
+}
+
+/// The state as a file's text.
+pub fn state_json(state: &State) -> String {
+    let written = Written {
+        format: 1,
+        time: state.time,
+        poses: poses_out(&state.poses),
+        velocities: sixes_out(&state.velocities),
+        momenta: sixes_out(&state.momenta),
+        wrenches: sixes_out(&state.wrenches),
+        dissipated: state.dissipated,
+        worked: state.worked,
+        power: [state.power.dissipated, state.power.worked],
+        next_step: state.next_step,
+        past: match &state.past {
+            Past::None => WrittenPast::None,
+            Past::Before { poses, momenta } => {
+                WrittenPast::Before { poses: poses_out(poses), momenta: sixes_out(momenta) }
+            }
+            Past::Rates { momentum, mean_velocity, mean_momentum } => WrittenPast::Rates {
+                momentum: sixes_out(momentum),
+                mean_velocity: sixes_out(mean_velocity),
+                mean_momentum: sixes_out(mean_momentum),
+            },
+        },
+    };
+    serde_json::to_string(&written).unwrap_or_else(|error| unreachable!("numbers have a form: {error}"))
+}
+
+/// The state that a file's text is of.
+///
+/// # Errors
+/// Where it is not the text of a state.
+pub fn read_state(text: &str) -> Result<State, StateError> {
+    let written: Written = serde_json::from_str(text)?;
+    if written.format != 1 {
+        return Err(StateError::Format(written.format));
+    }
+    let [dissipated, worked] = written.power;
+    Ok(State {
+        time: written.time,
+        poses: poses_in(&written.poses),
+        velocities: sixes_in(&written.velocities),
+        momenta: sixes_in(&written.momenta),
+        wrenches: sixes_in(&written.wrenches),
+        dissipated: written.dissipated,
+        worked: written.worked,
+        power: Power { dissipated, worked },
+        next_step: written.next_step,
+        past: match written.past {
+            WrittenPast::None => Past::None,
+            WrittenPast::Before { poses, momenta } => {
+                Past::Before { poses: poses_in(&poses), momenta: sixes_in(&momenta) }
+            }
+            WrittenPast::Rates { momentum, mean_velocity, mean_momentum } => Past::Rates {
+                momentum: sixes_in(&momentum),
+                mean_velocity: sixes_in(&mean_velocity),
+                mean_momentum: sixes_in(&mean_momentum),
+            },
+        },
+    })
+}
+
+fn sixes_out(sixes: &[Vec6]) -> Row<6> {
+    sixes.iter().map(|six| six.to_array()).collect()
+}
+
+fn sixes_in(rows: &Row<6>) -> Vec<Vec6> {
+    rows.iter().map(|row| Vec6::from(*row)).collect()
+}
+
+fn poses_out(poses: &[Pose]) -> Row<12> {
+    let out = |pose: &Pose| {
+        let [a, b, c] = pose.rotation.cols.map(Vec3::to_array);
+        let parts = [a, b, c, pose.position.to_array()];
+        core::array::from_fn(|k| parts[k / 3][k % 3])
+    };
+    poses.iter().map(out).collect()
+}
+
+fn poses_in(rows: &Row<12>) -> Vec<Pose> {
+    let vector = |row: &[f64; 12], k: usize| Vec3::new(row[k], row[k + 1], row[k + 2]);
+    let pose = |row: &[f64; 12]| Pose {
+        rotation: Mat3::from_cols(vector(row, 0), vector(row, 3), vector(row, 6)),
+        position: vector(row, 9),
+    };
+    rows.iter().map(pose).collect()
+}
