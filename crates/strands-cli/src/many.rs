@@ -24,7 +24,7 @@ use crate::{Failure, overrides, say, summary};
 /// # Errors
 /// Bad scenes, files and names; and, once that is said, a search that found none.
 pub fn all(options: &Solve, source: &Source, outputs: &[(&PathBuf, Format)]) -> Result<(), Failure> {
-    let mut model = source.parse()?.model;
+    let mut model = source.parse_alone()?.model;
     let name = rod_named(options.rod.as_deref(), &model, None)?;
     model.refine(&name).map_err(Failure::bad)?;
     if !(options.effort > 0.0 && options.effort <= 1e4) {
@@ -125,7 +125,7 @@ pub fn path(
     let at_value = |at: f64| -> Result<Model, Failure> {
         let value = way.value(at);
         let text = overrides::set(&source.text, source.is_json(), &way.key, value).map_err(Failure::bad)?;
-        Ok(source.with_text(text).parse()?.model)
+        Ok(source.with_text(text).parse_alone()?.model)
     };
     let first = at_value(0.0)?;
     at_value(1.0)?;

@@ -61,7 +61,7 @@ pub fn run(options: &Solve) -> Result<(), Failure> {
     if let Some(path) = &options.path {
         return many::path(options, &source, path, &outputs);
     }
-    let scene = source.parse()?;
+    let scene = source.parse_alone()?;
     check::warn(&scene.remarks());
     let outcome = solve_all(scene.model)?;
     for (path, format) in outputs {

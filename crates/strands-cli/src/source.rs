@@ -33,6 +33,16 @@ impl Source {
             .map_err(|error| Failure::Bad(error.render(colour_err())))
     }
 
+    /// Reads a scene of which each rod can be solved by itself.
+    ///
+    /// # Errors
+    /// As [`Source::parse`], and where joints tie its rods.
+    pub fn parse_alone(&self) -> Result<Scene, Failure> {
+        let scene = self.parse()?;
+        scene.model.each_alone().map_err(Failure::bad)?;
+        Ok(scene)
+    }
+
     /// The text for a reader who has not the scene's folder: with the tables that it names written in. Without any it is as it was.
     ///
     /// # Errors

@@ -96,3 +96,14 @@ fn bad_paths_say_what_is_wrong() {
     let run = strands(&["solve", "column.toml", "--all", "--rod", "beam"]);
     assert!(run.code == 1 && run.err.contains("the scene has column"), "{}", run.err);
 }
+
+#[test]
+fn rods_that_are_tied_are_not_solved_one_by_one() {
+    let scene = "../../../../scenes/needle_and_thread.toml";
+    let ways: [&[&str]; 3] = [&[], &["--all"], &["--path", "gravity=[0,0,-9.81]..[0,0,-5]"]];
+    for way in ways {
+        let run = strands(&[&["solve", scene], way].concat());
+        assert_eq!((run.code, run.out.as_str()), (1, ""), "{way:?}");
+        assert!(run.err.contains("come to rest with `strands simulate`"), "{way:?}: {}", run.err);
+    }
+}
