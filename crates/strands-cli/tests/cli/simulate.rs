@@ -188,11 +188,12 @@ fn steps_that_are_chosen_end_where_frames_are_due() {
 
 #[test]
 fn tied_rods_and_bodies_move_as_one() {
-    let run = strands(&["simulate", "../../scenes/needle_and_thread.toml", "--seconds", "0.05", "--json"]);
+    let run =
+        strands(&["simulate", "../../../../scenes/needle_and_thread.toml", "--seconds", "0.05", "--json"]);
     assert_eq!((run.code, run.err.as_str()), (0, ""));
     let answer: Value = serde_json::from_str(&run.out).unwrap();
     let frames = answer["frames"].as_array().unwrap();
     assert!(frames[0]["bodies"].is_object() || frames[0]["bodies"].is_array(), "{}", frames[0]);
-    let run = strands(&["simulate", "../../scenes/hanging_net.toml", "--seconds", "0.02", "--json"]);
+    let run = strands(&["simulate", "../../../../scenes/hanging_net.toml", "--seconds", "0.02", "--json"]);
     assert_eq!((run.code, run.err.as_str()), (0, ""));
 }

@@ -35,15 +35,8 @@ pub(super) struct Held {
 
 impl Held {
     pub fn begin(simulation: &mut Simulation) -> Self {
-        let end = simulation.state.time + simulation.work.step;
+        put_as_planned(&mut simulation.assembly, simulation.state.time + simulation.work.step);
         let Simulation { assembly, state, .. } = simulation;
-        for at in 0..assembly.moving.len() {
-            let keyframes = &assembly.moving[at];
-            let (member, pose) = (keyframes.member, keyframes.at(end));
-            if let Some(support) = assembly.support_mut(member) {
-                support.pose = pose;
-            }
-        }
         let mut moving = Vec::new();
         for member in held(assembly) {
             let (Some(frame), Some(support)) = (assembly.frame(member), assembly.support(member)) else {
@@ -105,6 +98,17 @@ impl Held {
                 grip.last =
                     Some(LastFrame { hand: hand.target, held: state.poses[frame], time_step: self.step });
             }
+        }
+    }
+}
+
+/// Puts supports with keyframes where these say that they are at a time, s.
+pub(super) fn put_as_planned(assembly: &mut Assembly, time: f64) {
+    for at in 0..assembly.moving.len() {
+        let keyframes = &assembly.moving[at];
+        let (member, pose) = (keyframes.member, keyframes.at(time));
+        if let Some(support) = assembly.support_mut(member) {
+            support.pose = pose;
         }
     }
 }

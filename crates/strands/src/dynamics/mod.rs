@@ -234,6 +234,7 @@ impl Simulation {
             return Err(SimulationError::Unfit { got, needed });
         }
         self.state = state;
+        holds::put_as_planned(&mut self.assembly, self.state.time);
         self.weigh();
         Ok(())
     }

@@ -1,5 +1,6 @@
 //! Where a simulation starts.
 
+use super::holds::put_as_planned;
 use super::{Integrator, Past, Power, Settings, Simulation, SimulationError, State, StepFailure};
 use crate::math::{Vec6, Wrench, larger};
 use crate::statics::{self, Method, Scheme, Workspace, meet};
@@ -34,13 +35,21 @@ impl Simulation {
     }
 
     fn put(&mut self, start: Start) -> Result<(), SimulationError> {
+        put_as_planned(&mut self.assembly, 0.0);
         match start {
             Start::State(state) => self.restore(*state),
             Start::Rest => self.at_rest(true),
             Start::Equilibrium => {
                 self.at_rest(false)?;
                 let alone = |group: &super::Group| group.network.is_none();
-                if self.work.groups.iter().all(alone) { self.equilibria() } else { self.relax() }
+                if self.work.groups.iter().all(alone) {
+                    return self.equilibria();
+                }
+                // The time that it takes to come to rest is none.
+                let moving = core::mem::take(&mut self.assembly.moving);
+                let relaxed = self.relax();
+                self.assembly.moving = moving;
+                relaxed
             }
         }
     }
