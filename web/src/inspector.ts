@@ -37,16 +37,17 @@ export class Inspector {
     this.#view()
   }
 
-  /** Writes the numbers of the scene and of the rod that the hand holds. Rows for what they do not have are hidden. */
-  fill(scene: SceneJson, rod: SceneJson): void {
+  /**
+   * Writes the numbers of the scene and of the rod that the hand holds. Rows for what they do not have are hidden. What someone is
+   * typing stays, unless the scene is another one.
+   */
+  fill(scene: SceneJson, rod: SceneJson, anew = false): void {
     for (const field of numberFields) {
       const input = this.#numbers.get(field.id)!
       const value = field.get(scene, rod)
       input.closest('label')!.hidden = value === undefined
-      input.removeAttribute('aria-invalid')
-      input.closest('label')!.classList.remove('bad')
-      // Also while it has the focus: a number that was refused goes back to what holds.
-      input.value = value === undefined ? '' : String(Number((value / field.scale).toPrecision(6)))
+      if (anew) delete input.dataset.typing
+      write(input, value === undefined ? '' : String(Number((value / field.scale).toPrecision(6))))
     }
     this.#choices.get('kinematics')!.value = rod.kinematics ?? 'cosserat'
     this.#choices.get('order')!.value = String(scene.solver?.order ?? 2)

@@ -78,7 +78,7 @@ function receive(reply: Reply): void {
       scene = JSON.parse(reply.scene)
       stage.hand.set(reply.shape.hand)
       setUp(reply.shape)
-      inspector.fill(scene, scene.rods[reply.shape.report.rod])
+      inspector.fill(scene, scene.rods[reply.shape.report.rod], true)
       coupling = reply.coupling
       inspector.fillCoupling(coupling)
       // The first solve starts from rest, and says nothing of the frames to come.
@@ -86,7 +86,8 @@ function receive(reply: Reply): void {
     case 'shape':
       if (reply.scene) {
         scene = JSON.parse(reply.scene)
-        inspector.fill(scene, scene.rods[reply.shape.report.rod])
+        // Edits that wait are not in it yet, and their fields must not go back.
+        if (waiting === 0) inspector.fill(scene, scene.rods[reply.shape.report.rod])
         inspector.fillCoupling(reply.coupling)
       }
       coupling = reply.coupling
@@ -156,10 +157,17 @@ async function reset(): Promise<void> {
 
 /** Edits are made one after the other: each starts from what the last has left. */
 let lastEdit = Promise.resolve()
+/** How many have not begun. */
+let waiting = 0
 
 function inTurn(work: () => Promise<void>): void {
+  waiting++
+  const begin = () => {
+    waiting--
+    return work()
+  }
   // One that breaks off must not hold up those after it.
-  lastEdit = lastEdit.then(work).catch((error) => {
+  lastEdit = lastEdit.then(begin).catch((error) => {
     refill()
     say(`This change could not be made (${error}).`)
   })

@@ -264,6 +264,38 @@ test('the solver’s controls hold, and a number that is refused is explained an
   assert.deepEqual(complaints, [])
 })
 
+test('what is being typed is not overwritten by an answer that arrives meanwhile', async () => {
+  const { page, complaints } = await fresh()
+  await unfold(page, 'Solver')
+  await page.locator('#order').selectOption('4')
+  await page.locator('#tolerance').fill('1e-8')
+  await done(page)
+  assert.equal(Number(await value(page, 'tolerance')), 1e-8)
+  await page.locator('#tolerance').press('Enter')
+  await done(page)
+  const saved = await page.evaluate(() => window.strands.solver.ask({ kind: 'toml' }).then((reply) => reply.data))
+  assert.match(saved, /\[solver\][^[]*order = 4/)
+  assert.match(saved, /\[solver\][^[]*tolerance = (1e-8|0\.00000001)/)
+  // Of two edits at once the first one's answer does not take back what the second has changed.
+  const shown = await page.evaluate(async () => {
+    const change = (id, text) => {
+      const field = document.getElementById(id)
+      field.value = text
+      field.dispatchEvent(new Event('change'))
+    }
+    const seen = new Set()
+    change('radius', '0.09')
+    change('density', '1000')
+    for (let i = 0; i < 3; i++) {
+      await window.strands.solver.ask({ kind: 'csv' })
+      seen.add(document.getElementById('density').value)
+    }
+    return [...seen]
+  })
+  assert.deepEqual(shown, ['1000'])
+  assert.deepEqual(complaints, [])
+})
+
 test('where no equilibrium is found the last good shape stays, and the page says what to do', async () => {
   const { page, complaints } = await fresh()
   const shape = () => page.evaluate(() => window.strands.solver.ask({ kind: 'csv' }).then((reply) => reply.data))
