@@ -1,8 +1,8 @@
-/** The inspector: four groups of controls that read and write the scene, the hand, the solver and the view. */
+/** The inspector: groups of controls that read and write the scene, the hand, its motion, the solver and the view. */
 
-import { atNodes, quantities, type MapName } from './colour'
+import { quantities, type MapName } from './colour'
 import { checkbox, choice, numberInput, refuse, write } from './controls'
-import { couplingFields, numberFields, type SceneJson } from './fields'
+import { couplingFields, numberFields, starts, type SceneJson } from './fields'
 import type { HandMode, Shape } from './protocol'
 import type { Stage, ViewOptions } from './stage'
 
@@ -28,11 +28,11 @@ const group = (id: string) => document.getElementById(id)!
 export class Inspector {
   #numbers = new Map<string, HTMLInputElement>()
   #choices = new Map<string, HTMLSelectElement>()
-  #shape: Shape | null = null
 
   constructor(private stage: Stage, private edits: Edits) {
     this.#strand()
     this.#hand()
+    this.#motion()
     this.#solver()
     this.#view()
   }
@@ -49,6 +49,7 @@ export class Inspector {
       if (anew) delete input.dataset.typing
       write(input, value === undefined ? '' : String(Number((value / field.scale).toPrecision(6))))
     }
+    this.#choices.get('starts')!.value = scene.dynamics?.start ?? 'equilibrium'
     this.#choices.get('kinematics')!.value = rod.kinematics ?? 'cosserat'
     this.#choices.get('order')!.value = String(scene.solver?.order ?? 2)
   }
@@ -64,7 +65,6 @@ export class Inspector {
 
   /** Writes what belongs to a shape: where the hand is, and how it holds on. */
   show(shape: Shape): void {
-    this.#shape = shape
     this.#choices.get('mode')!.value = shape.report.mode
     ;['x', 'y', 'z'].forEach((axis, i) => write(this.#numbers.get(`hand-${axis}`)!, (shape.hand[i] * 1e3).toFixed(2)))
     const angles = this.stage.hand.angles
@@ -116,6 +116,13 @@ export class Inspector {
     })
   }
 
+  #motion(): void {
+    for (const field of numberFields.filter((field) => field.group === 'motion-fields')) this.#field(field)
+    this.#choices.set('starts', choice(group('motion-fields'), 'starts', 'Starts from', 'Where the scene starts to move from.', starts, (value) => {
+      this.edits.scene((scene) => (scene.dynamics = { ...scene.dynamics, start: value }))
+    }))
+  }
+
   #solver(): void {
     for (const field of numberFields.filter((field) => field.group === 'solver')) this.#field(field)
     const orders: [string, string][] = [['1', '1 (Euler)'], ['2', '2'], ['4', '4']]
@@ -134,7 +141,7 @@ export class Inspector {
     choice(group('view'), 'map', 'Colours', 'The scale of colours; cividis looks the same to colour-blind eyes.', maps, (map) => this.edits.look({ map }))
     checkbox(group('view'), 'fixed', 'Fixed range', 'Keeps the range of the colours as it is now.', false, (fixed) => {
       const quantity = quantities[this.stage.view.colourBy]
-      this.#range(fixed && quantity && this.#shape ? atNodes(quantity, this.#shape).range : null)
+      this.#range(fixed && quantity ? [...this.stage.tubes.range] : null)
     })
     const ends: [string, string, string][] = [['range-low', 'From', 'The value of the first colour.'], ['range-high', 'To', 'The value of the last colour.']]
     ends.forEach(([id, label, help], i) => {
