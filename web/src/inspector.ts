@@ -1,7 +1,7 @@
 /** The inspector: groups of controls that read and write the scene, the hand, its motion, the solver and the view. */
 
 import { quantities, type MapName } from './colour'
-import { checkbox, choice, numberInput, refuse, write } from './controls'
+import { checkbox, choice, numberInput, refuse, slide, slider, write } from './controls'
 import { couplingFields, numberFields, starts, type SceneJson } from './fields'
 import type { HandMode, Shape } from './protocol'
 import type { Stage, ViewOptions } from './stage'
@@ -16,6 +16,8 @@ export interface Edits {
   /** One of the coupling's numbers, by its place in the solver's order. */
   coupling: (index: number, value: number) => void
   look: (change: Partial<ViewOptions>) => void
+  /** How the air moves, m/s. */
+  wind: (velocity: [number, number, number]) => void
 }
 
 /** A number that fits its field. */
@@ -28,11 +30,13 @@ const group = (id: string) => document.getElementById(id)!
 export class Inspector {
   #numbers = new Map<string, HTMLInputElement>()
   #choices = new Map<string, HTMLSelectElement>()
+  #wind: HTMLInputElement[] = []
 
   constructor(private stage: Stage, private edits: Edits) {
     this.#strand()
     this.#hand()
     this.#motion()
+    this.#air()
     this.#solver()
     this.#view()
   }
@@ -50,6 +54,9 @@ export class Inspector {
       write(input, value === undefined ? '' : String(Number((value / field.scale).toPrecision(6))))
     }
     this.#choices.get('starts')!.value = scene.dynamics?.start ?? 'equilibrium'
+    const feel = Object.values<SceneJson>(scene.rods).some((rod) => rod.drag)
+    for (const input of this.#wind) input.closest('label')!.hidden = !feel
+    if (anew) this.#fillWind(scene.wind?.velocity ?? [0, 0, 0])
     this.#choices.get('kinematics')!.value = rod.kinematics ?? 'cosserat'
     this.#choices.get('order')!.value = String(scene.solver?.order ?? 2)
   }
@@ -121,6 +128,24 @@ export class Inspector {
     this.#choices.set('starts', choice(group('motion-fields'), 'starts', 'Starts from', 'Where the scene starts to move from.', starts, (value) => {
       this.edits.scene((scene) => (scene.dynamics = { ...scene.dynamics, start: value }))
     }))
+  }
+
+  /** Wind along the ground: how fast, and where to. */
+  #air(): void {
+    const told = () => {
+      const [speed, degrees] = this.#wind.map((input) => input.valueAsNumber)
+      const angle = (degrees * Math.PI) / 180
+      this.edits.wind([speed * Math.cos(angle), speed * Math.sin(angle), 0])
+    }
+    this.#wind = [
+      slider(group('motion-fields'), 'wind-speed', 'Wind', 'How fast the air moves.', [0, 20, 0.1], (speed) => `${speed.toFixed(1)} m/s`, told),
+      slider(group('motion-fields'), 'wind-to', 'Blows to', 'Where the wind blows to, about the vertical from x.', [-180, 180, 5], (angle) => `${angle}°`, told),
+    ]
+  }
+
+  #fillWind([x, y]: number[]): void {
+    slide(this.#wind[0], Math.hypot(x, y))
+    slide(this.#wind[1], (Math.atan2(y, x) * 180) / Math.PI)
   }
 
   #solver(): void {

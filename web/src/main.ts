@@ -41,7 +41,7 @@ const gestures = new Gestures(stage, {
   moved: moveHand,
   released: () => motion.release(),
 })
-const inspector = new Inspector(stage, { scene: edit, hand: placeHand, mode: setMode, coupling: setCoupling, look })
+const inspector = new Inspector(stage, { scene: edit, hand: placeHand, mode: setMode, coupling: setCoupling, look, wind: (velocity) => motion.setWind(velocity) })
 const history = new History<Moment>((undo, redo) => {
   element<HTMLButtonElement>('undo').disabled = !undo
   element<HTMLButtonElement>('redo').disabled = !redo

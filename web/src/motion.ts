@@ -115,6 +115,10 @@ export class Motion {
     if (this.scenery) void this.#ask({ kind: 'rewind' })
   }
 
+  setWind(velocity: [number, number, number]): void {
+    if (this.scenery) void this.#ask({ kind: 'wind', velocity })
+  }
+
   get holds(): boolean {
     return this.#hand !== null
   }

@@ -38,6 +38,9 @@ export class Mover {
       case 'release':
         this.#motion.release()
         break
+      case 'wind':
+        this.#motion.set_wind(...request.velocity)
+        break
       default:
         return null
     }

@@ -122,6 +122,8 @@ export type Request =
   | { kind: 'rewind' }
   | { kind: 'grab'; rod: number; node: number }
   | { kind: 'release' }
+  /** How the air moves, m/s. */
+  | { kind: 'wind'; velocity: [number, number, number] }
 
 export type Reply =
   | { kind: 'bundled'; scenes: { name: string; title: string; text: string }[] }

@@ -64,6 +64,11 @@ impl Motion {
         self.moving.rewind();
     }
 
+    /// Lets the air around move, m/s. Only rods with drag feel it.
+    pub fn set_wind(&mut self, x: f64, y: f64, z: f64) {
+        self.moving.rods.set_wind(Vec3::new(x, y, z));
+    }
+
     /// Takes hold of a node of a rod, where it is. A number that there is not is ignored.
     pub fn grab(&mut self, rod: usize, node: usize) {
         self.moving.grab(rod, node);

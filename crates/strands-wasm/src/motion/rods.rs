@@ -3,7 +3,7 @@
 use strands::assembly::{Assembly, Member, Strand};
 use strands::coupling::Grip;
 use strands::dynamics::{Budget, Integrator, Settings, Simulation, Start, Step};
-use strands::math::{Pose, Quat};
+use strands::math::{Pose, Quat, Vec3};
 use strands::statics::{Problem, Support};
 use strands_scene::{DynamicsFile, IntegratorName, Model};
 
@@ -65,6 +65,12 @@ impl Rods {
         self.last = self.simulation.step().map_err(|failure| failure.to_string())?;
         self.before = before;
         Ok(())
+    }
+
+    /// Lets the air around move, m/s, from now on and from the start on.
+    pub fn set_wind(&mut self, velocity: Vec3) {
+        self.simulation.assembly_mut().wind = velocity;
+        self.start.assembly_mut().wind = velocity;
     }
 
     pub fn time(&self) -> f64 {
