@@ -1,11 +1,11 @@
 /**
- * Force and torque at the hand and at the support: a straight arrow for a force, an arc around its axis for a torque, each with its number.
+ * Force and torque at the hand and at the support, or at a hand that has grabbed: a straight arrow for a force, an arc around its axis for a torque, each with its number.
  * Both forces have one scale, and both torques.
  */
 
 import * as THREE from 'three'
 import { engineering } from './engineering'
-import type { Shape } from './protocol'
+import type { Reaction } from './protocol'
 
 const COLOURS = { force: 0xd9480f, torque: 0x7c3aed }
 /** An arrow, its length or its radius, m; then where its number stands. */
@@ -47,18 +47,17 @@ export class Arrows {
     this.group.add(...this.#arrows.map((arrow) => arrow.group))
   }
 
-  /** `size` is that of the scene, `starts` where the thread's start and end are. */
-  show(shape: Shape, visible: boolean, size: number, starts: THREE.Vector3[]): void {
-    const { start, end } = shape.report
-    const vectors = [start.force, start.moment, end.force, end.moment].map((v) => new THREE.Vector3(...v))
-    const largest = [0, 1].map((i) => Math.max(vectors[i].length(), vectors[i + 2].length()))
+  /** `size` is that of the scene, `places` where the reactions act. There are at most two. */
+  show(reactions: Reaction[], visible: boolean, size: number, places: THREE.Vector3[]): void {
+    const vectors = reactions.flatMap(({ force, moment }) => [new THREE.Vector3(...force), new THREE.Vector3(...moment)])
+    const largest = [0, 1].map((i) => Math.max(...vectors.filter((_, k) => k % 2 === i).map((vector) => vector.length())))
     this.#arrows.forEach((arrow, i) => {
-      const amount = vectors[i].length()
+      const amount = vectors[i]?.length() ?? 0
       const part = amount / largest[i % 2]
       arrow.group.visible = visible && amount > 1e-12 && part > 1e-3
       if (!arrow.group.visible) return
       const direction = vectors[i].clone().normalize()
-      arrow.group.position.copy(starts[i < 2 ? 0 : 1])
+      arrow.group.position.copy(places[i < 2 ? 0 : 1])
       arrow.group.quaternion.setFromUnitVectors(new THREE.Vector3(0, 0, 1), direction)
       if (arrow.kind === 'force') this.#straight(arrow, Math.max(0.19 * part, 0.05) * size, 0.0026 * size)
       else this.#arc(arrow, (0.035 + 0.03 * part) * size)

@@ -3,7 +3,7 @@
  * (Nuñez, Anderton & Renslow 2018); and what the thread can be coloured by.
  */
 
-import type { Shape } from './protocol'
+import type { Carried } from './protocol'
 
 const STOPS: Record<string, string[]> = {
   viridis: ['440154', '482878', '3e4989', '31688e', '26828e', '1f9e89', '35b779', '6ece58', 'b5de2b', 'fde725'],
@@ -38,7 +38,7 @@ export function gradient(map: MapName): string {
 export interface Quantity {
   label: string
   unit: string
-  value: (shape: Shape, element: number) => number
+  value: (of: Carried, element: number) => number
 }
 
 export const quantities: Record<string, Quantity | null> = {
@@ -51,12 +51,12 @@ export const quantities: Record<string, Quantity | null> = {
 }
 
 /** A quantity at the nodes, and its least and greatest value. */
-export function atNodes(quantity: Quantity, shape: Shape): { values: Float64Array; range: [number, number] } {
-  const elements = shape.strain.length / 6
+export function atNodes(quantity: Quantity, of: Carried): { values: Float64Array; range: [number, number] } {
+  const elements = of.strain.length / 6
   const values = new Float64Array(elements + 1)
   const range: [number, number] = [Infinity, -Infinity]
   for (let i = 0; i <= elements; i++) {
-    const value = 0.5 * (quantity.value(shape, Math.max(i - 1, 0)) + quantity.value(shape, Math.min(i, elements - 1)))
+    const value = 0.5 * (quantity.value(of, Math.max(i - 1, 0)) + quantity.value(of, Math.min(i, elements - 1)))
     values[i] = value
     range[0] = Math.min(range[0], value)
     range[1] = Math.max(range[1], value)

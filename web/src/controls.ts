@@ -31,6 +31,27 @@ export function numberInput(
   return input
 }
 
+/** A slider; its number, as `text` says it, stands beside it. */
+export function slider(
+  parent: HTMLElement, id: string, label: string, help: string, [min, max, step]: [number, number, number], text: (value: number) => string, change: (value: number) => void,
+): HTMLInputElement {
+  const input = Object.assign(document.createElement('input'), { id, type: 'range', min: String(min), max: String(max), step: String(step) })
+  const line = row(parent, label, '', help, input)
+  const show = () => (line.querySelector('.unit')!.textContent = input.ariaValueText = text(input.valueAsNumber))
+  input.addEventListener('input', () => {
+    show()
+    change(input.valueAsNumber)
+  })
+  input.addEventListener('shown', show)
+  return input
+}
+
+/** Puts a slider where a number is. */
+export function slide(input: HTMLInputElement, value: number): void {
+  input.value = String(value)
+  input.dispatchEvent(new Event('shown'))
+}
+
 export function choice<Value extends string>(
   parent: HTMLElement, id: string, label: string, help: string, options: [Value, string][], change: (value: Value) => void,
 ): HTMLSelectElement {

@@ -3,7 +3,7 @@
 export type SceneJson = Record<string, any>
 
 export interface NumberField {
-  group: 'strand' | 'solver'
+  group: 'strand' | 'solver' | 'motion-fields'
   id: string
   label: string
   unit: string
@@ -113,7 +113,21 @@ export const numberFields: NumberField[] = [
     get: (scene) => scene.solver?.tolerance ?? 1e-9,
     set: (scene, _, value) => (scene.solver = { ...scene.solver, tolerance: value }),
   },
+  {
+    group: 'motion-fields', id: 'time-step', label: 'Time step', unit: 'ms', help: 'How long a step in time is.', scale: 1e-3,
+    get: (scene) => scene.dynamics?.time_step ?? 1e-3,
+    set: (scene, _, value) => (scene.dynamics = { ...scene.dynamics, time_step: value }),
+  },
+  {
+    group: 'motion-fields', id: 'damping', label: 'Damping', unit: 'ms', scale: 1e-3,
+    help: 'Damping time of its material: its stress for a rate of strain, over its stiffness.',
+    get: (scene, rod) => (material(scene, rod) ? (material(scene, rod)!.damping ?? 0) : undefined),
+    set: (scene, rod, value) => (material(scene, rod)!.damping = value),
+  },
 ]
+
+/** Where the scene can start to move from. */
+export const starts: [string, string][] = [['equilibrium', 'where it rests'], ['rest', 'its rest shape']]
 
 /** The coupling's numbers, in the solver's order. `empty` is what a field that holds nothing stands for. */
 export const couplingFields: { label: string; unit: string; help: string; empty?: number }[] = [

@@ -1,21 +1,26 @@
-/** Pointer, wheel and touch on the stage: what grabs the hand moves and turns it, everything else looks around. */
+/** Pointer, wheel and touch on the stage: what grabs moves and turns the hand, everything else looks around. */
 
 import type { Stage } from './stage'
 
-/** How near to the needle a pointer grabs it, px. */
+/** How near to what can be grabbed a pointer grabs it, px. */
 const REACH = { mouse: 22, pen: 26, touch: 40 }
 
 interface Finger { x: number; y: number }
 
 export interface HandEvents {
-  /** The hand is grabbed: what follows is one change. */
-  grabbed: () => void
+  /** Whether there is something to grab within so many px of a place of the page. */
+  near: (x: number, y: number, reach: number) => boolean
+  /** It is grabbed: what follows is one change. */
+  grabbed: (x: number, y: number, reach: number) => void
+  /** The gizmo is. */
+  held: () => void
   moved: () => void
+  released: () => void
 }
 
 export class Gestures {
   #fingers = new Map<number, Finger>()
-  /** The finger that holds the needle. */
+  /** The finger that holds the hand. */
   #holder: number | null = null
 
   constructor(private stage: Stage, private events: HandEvents) {
@@ -28,7 +33,7 @@ export class Gestures {
     }
     canvas.addEventListener('wheel', (event) => this.#wheel(event), { capture: true, passive: false })
     canvas.addEventListener('dblclick', () => stage.frameAll())
-    stage.gizmo.addEventListener('mouseDown', () => events.grabbed())
+    stage.gizmo.addEventListener('mouseDown', () => events.held())
   }
 
   get holding(): boolean {
@@ -41,9 +46,9 @@ export class Gestures {
       this.#holder = event.pointerId
       this.stage.orbit.enabled = false
       this.stage.canvas.style.cursor = 'grabbing'
-      this.events.grabbed()
+      this.events.grabbed(event.clientX, event.clientY, reachOf(event))
     }
-    // A finger that joins one on the needle belongs to the hand.
+    // A finger that joins belongs to the hand.
     this.#fingers.set(event.pointerId, { x: event.clientX, y: event.clientY })
     this.stage.canvas.setPointerCapture(event.pointerId)
   }
@@ -81,7 +86,7 @@ export class Gestures {
     this.stage.nudge({ right: dx * metre, up: -dy * metre })
   }
 
-  /** Two fingers: turning them twists, spreading them brings the needle nearer, moving both moves it. */
+  /** Two fingers: turning them twists, spreading them brings the hand nearer, moving both moves it. */
   #two(other: Finger, before: Finger, now: Finger): void {
     const arm = (finger: Finger) => ({ length: Math.hypot(finger.x - other.x, finger.y - other.y), angle: Math.atan2(finger.y - other.y, finger.x - other.x) })
     const [old, fresh] = [arm(before), arm(now)]
@@ -96,6 +101,7 @@ export class Gestures {
     this.#holder = null
     this.stage.orbit.enabled = true
     this.stage.canvas.style.cursor = ''
+    this.events.released()
   }
 
   #wheel(event: WheelEvent): void {
@@ -107,7 +113,10 @@ export class Gestures {
   }
 
   #near(event: PointerEvent): boolean {
-    const reach = REACH[event.pointerType as keyof typeof REACH] ?? REACH.mouse
-    return this.stage.handlesOnPage().some(([x, y]) => Math.hypot(event.clientX - x, event.clientY - y) < reach)
+    return this.events.near(event.clientX, event.clientY, reachOf(event))
   }
+}
+
+function reachOf(event: PointerEvent): number {
+  return REACH[event.pointerType as keyof typeof REACH] ?? REACH.mouse
 }

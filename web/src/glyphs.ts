@@ -1,7 +1,10 @@
 /** What can be drawn along the thread on request: its material frame, its internal force, its internal moment. */
 
 import * as THREE from 'three'
-import type { Shape } from './protocol'
+import type { Body, Carried } from './protocol'
+
+/** A thread and what it carries. */
+type Shape = Body & Carried
 
 export interface GlyphOptions {
   directors: boolean

@@ -1,8 +1,8 @@
-/** The inspector: four groups of controls that read and write the scene, the hand, the solver and the view. */
+/** The inspector: groups of controls that read and write the scene, the hand, its motion, the solver and the view. */
 
-import { atNodes, quantities, type MapName } from './colour'
-import { checkbox, choice, numberInput, refuse, write } from './controls'
-import { couplingFields, numberFields, type SceneJson } from './fields'
+import { quantities, type MapName } from './colour'
+import { checkbox, choice, numberInput, refuse, slide, slider, write } from './controls'
+import { couplingFields, numberFields, starts, type SceneJson } from './fields'
 import type { HandMode, Shape } from './protocol'
 import type { Stage, ViewOptions } from './stage'
 
@@ -16,6 +16,8 @@ export interface Edits {
   /** One of the coupling's numbers, by its place in the solver's order. */
   coupling: (index: number, value: number) => void
   look: (change: Partial<ViewOptions>) => void
+  /** How the air moves, m/s. */
+  wind: (velocity: [number, number, number]) => void
 }
 
 /** A number that fits its field. */
@@ -28,26 +30,33 @@ const group = (id: string) => document.getElementById(id)!
 export class Inspector {
   #numbers = new Map<string, HTMLInputElement>()
   #choices = new Map<string, HTMLSelectElement>()
-  #shape: Shape | null = null
+  #wind: HTMLInputElement[] = []
 
   constructor(private stage: Stage, private edits: Edits) {
     this.#strand()
     this.#hand()
+    this.#motion()
+    this.#air()
     this.#solver()
     this.#view()
   }
 
-  /** Writes the numbers of the scene and of the rod that the hand holds. Rows for what they do not have are hidden. */
-  fill(scene: SceneJson, rod: SceneJson): void {
+  /**
+   * Writes the numbers of the scene and of the rod that the hand holds. Rows for what they do not have are hidden. What someone is
+   * typing stays, unless the scene is another one.
+   */
+  fill(scene: SceneJson, rod: SceneJson, anew = false): void {
     for (const field of numberFields) {
       const input = this.#numbers.get(field.id)!
       const value = field.get(scene, rod)
       input.closest('label')!.hidden = value === undefined
-      input.removeAttribute('aria-invalid')
-      input.closest('label')!.classList.remove('bad')
-      // Also while it has the focus: a number that was refused goes back to what holds.
-      input.value = value === undefined ? '' : String(Number((value / field.scale).toPrecision(6)))
+      if (anew) delete input.dataset.typing
+      write(input, value === undefined ? '' : String(Number((value / field.scale).toPrecision(6))))
     }
+    this.#choices.get('starts')!.value = scene.dynamics?.start ?? 'equilibrium'
+    const feel = Object.values<SceneJson>(scene.rods).some((rod) => rod.drag)
+    for (const input of this.#wind) input.closest('label')!.hidden = !feel
+    if (anew) this.#fillWind(scene.wind?.velocity ?? [0, 0, 0])
     this.#choices.get('kinematics')!.value = rod.kinematics ?? 'cosserat'
     this.#choices.get('order')!.value = String(scene.solver?.order ?? 2)
   }
@@ -63,7 +72,6 @@ export class Inspector {
 
   /** Writes what belongs to a shape: where the hand is, and how it holds on. */
   show(shape: Shape): void {
-    this.#shape = shape
     this.#choices.get('mode')!.value = shape.report.mode
     ;['x', 'y', 'z'].forEach((axis, i) => write(this.#numbers.get(`hand-${axis}`)!, (shape.hand[i] * 1e3).toFixed(2)))
     const angles = this.stage.hand.angles
@@ -115,6 +123,31 @@ export class Inspector {
     })
   }
 
+  #motion(): void {
+    for (const field of numberFields.filter((field) => field.group === 'motion-fields')) this.#field(field)
+    this.#choices.set('starts', choice(group('motion-fields'), 'starts', 'Starts from', 'Where the scene starts to move from.', starts, (value) => {
+      this.edits.scene((scene) => (scene.dynamics = { ...scene.dynamics, start: value }))
+    }))
+  }
+
+  /** Wind along the ground: how fast, and where to. */
+  #air(): void {
+    const told = () => {
+      const [speed, degrees] = this.#wind.map((input) => input.valueAsNumber)
+      const angle = (degrees * Math.PI) / 180
+      this.edits.wind([speed * Math.cos(angle), speed * Math.sin(angle), 0])
+    }
+    this.#wind = [
+      slider(group('motion-fields'), 'wind-speed', 'Wind', 'How fast the air moves.', [0, 20, 0.1], (speed) => `${speed.toFixed(1)} m/s`, told),
+      slider(group('motion-fields'), 'wind-to', 'Blows to', 'Where the wind blows to, about the vertical from x.', [-180, 180, 5], (angle) => `${angle}°`, told),
+    ]
+  }
+
+  #fillWind([x, y]: number[]): void {
+    slide(this.#wind[0], Math.hypot(x, y))
+    slide(this.#wind[1], (Math.atan2(y, x) * 180) / Math.PI)
+  }
+
   #solver(): void {
     for (const field of numberFields.filter((field) => field.group === 'solver')) this.#field(field)
     const orders: [string, string][] = [['1', '1 (Euler)'], ['2', '2'], ['4', '4']]
@@ -133,7 +166,7 @@ export class Inspector {
     choice(group('view'), 'map', 'Colours', 'The scale of colours; cividis looks the same to colour-blind eyes.', maps, (map) => this.edits.look({ map }))
     checkbox(group('view'), 'fixed', 'Fixed range', 'Keeps the range of the colours as it is now.', false, (fixed) => {
       const quantity = quantities[this.stage.view.colourBy]
-      this.#range(fixed && quantity && this.#shape ? atNodes(quantity, this.#shape).range : null)
+      this.#range(fixed && quantity ? [...this.stage.tubes.range] : null)
     })
     const ends: [string, string, string][] = [['range-low', 'From', 'The value of the first colour.'], ['range-high', 'To', 'The value of the last colour.']]
     ends.forEach(([id, label, help], i) => {

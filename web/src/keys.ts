@@ -9,6 +9,15 @@ export interface Commands {
   pause: () => void
   help: () => void
   escape: () => void
+  /** From statics to motion and back. */
+  motion: () => void
+  /** While the scene moves: a step, the start, a speed by its place, and to grab the thread's end or let it go. */
+  step: () => void
+  rewind: () => void
+  speed: (place: number) => void
+  grab: () => void
+  /** Whether it moves. */
+  moves: () => boolean
   /** Before and after a key moves the hand. */
   grabbed: () => void
   moved: () => void
@@ -31,11 +40,20 @@ export function listenToKeys(stage: Stage, commands: Commands): void {
     arrowdown: { up: -STEP },
   }
   const others: Record<string, () => void> = {
-    t: () => stage.toggleGizmo('translate'),
-    r: () => stage.toggleGizmo('rotate'),
     f: () => stage.frameAll(),
+    m: commands.motion,
     '?': commands.help,
     escape: commands.escape,
+  }
+  const still: Record<string, () => void> = {
+    t: () => stage.toggleGizmo('translate'),
+    r: () => stage.toggleGizmo('rotate'),
+  }
+  const moving: Record<string, () => void> = {
+    '.': commands.step,
+    home: commands.rewind,
+    g: commands.grab,
+    ...Object.fromEntries([0, 1, 2, 3].map((place) => [String(place + 1), () => commands.speed(place)])),
   }
   let last = { key: '', time: -Infinity }
   document.addEventListener('keydown', (event) => {
@@ -62,7 +80,8 @@ export function listenToKeys(stage: Stage, commands: Commands): void {
       stage.nudge(event.shiftKey ? scaled(move, 0.1) : move)
       return commands.moved()
     }
-    others[key]?.()
+    const more = commands.moves() ? moving : still
+    ;(others[key] ?? more[key])?.()
   })
 }
 

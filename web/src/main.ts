@@ -9,6 +9,8 @@ import { History } from './history'
 import { Inspector } from './inspector'
 import { listenToKeys } from './keys'
 import { showLegend } from './legend'
+import { SPEEDS } from './motion'
+import { MotionMode } from './motion-mode'
 import { Plot } from './plot'
 import type { HandMode, Reply, Shape } from './protocol'
 import { buildRail, markCurrent, spoken } from './rail'
@@ -16,6 +18,7 @@ import { judge, Readout } from './readout'
 import { listenToTabs, showSheet } from './sheets'
 import { Solver } from './solver'
 import { Stage, type ViewOptions } from './stage'
+import { MANY } from './tubes'
 
 /** A state to go back to. */
 interface Moment {
@@ -26,10 +29,19 @@ interface Moment {
 
 const element = <T extends HTMLElement>(id: string) => document.getElementById(id) as T
 const stage = makeStage()
-const gestures = new Gestures(stage, { grabbed: remember, moved: moveHand })
 const solver = new Solver(receive)
-const readout = new Readout(new Plot(element<HTMLCanvasElement>('plot')))
-const inspector = new Inspector(stage, { scene: edit, hand: placeHand, mode: setMode, coupling: setCoupling, look })
+const plot = new Plot(element<HTMLCanvasElement>('plot'))
+const readout = new Readout(plot)
+const mode = new MotionMode(stage, solver, readout, plot, { say, shown: showColours, covered: measure })
+const { motion } = mode
+const gestures = new Gestures(stage, {
+  near: (x, y, reach) => (motion.scenery ? stage.pick(x, y, reach) !== null : stage.nearHandle(x, y, reach)),
+  grabbed: (x, y, reach) => (motion.scenery ? mode.grab(stage.pick(x, y, reach)) : remember()),
+  held: remember,
+  moved: moveHand,
+  released: () => motion.release(),
+})
+const inspector = new Inspector(stage, { scene: edit, hand: placeHand, mode: setMode, coupling: setCoupling, look, wind: (velocity) => motion.setWind(velocity) })
 const history = new History<Moment>((undo, redo) => {
   element<HTMLButtonElement>('undo').disabled = !undo
   element<HTMLButtonElement>('redo').disabled = !redo
@@ -55,6 +67,7 @@ function makeStage(): Stage {
 function moveHand(): void {
   if (!shape) return
   dismissHints()
+  if (motion.scenery) return motion.pull(stage.hand.pose())
   // A paused page remembers where the hand would be, and solves when it goes on.
   ahead = paused
   if (paused) return
@@ -78,7 +91,7 @@ function receive(reply: Reply): void {
       scene = JSON.parse(reply.scene)
       stage.hand.set(reply.shape.hand)
       setUp(reply.shape)
-      inspector.fill(scene, scene.rods[reply.shape.report.rod])
+      inspector.fill(scene, scene.rods[reply.shape.report.rod], true)
       coupling = reply.coupling
       inspector.fillCoupling(coupling)
       // The first solve starts from rest, and says nothing of the frames to come.
@@ -86,10 +99,14 @@ function receive(reply: Reply): void {
     case 'shape':
       if (reply.scene) {
         scene = JSON.parse(reply.scene)
-        inspector.fill(scene, scene.rods[reply.shape.report.rod])
+        // Edits that wait are not in it yet, and their fields must not go back.
+        if (waiting === 0) inspector.fill(scene, scene.rods[reply.shape.report.rod])
         inspector.fillCoupling(reply.coupling)
       }
       coupling = reply.coupling
+      shape = reply.shape
+      // What moves begins anew with the scene as it is now.
+      if (motion.scenery) return void setMotion(true, motion.playing)
       return show(reply.shape)
     case 'settled':
       return show(reply.shape, false)
@@ -98,10 +115,15 @@ function receive(reply: Reply): void {
 
 /** Prepares stage and names for a scene that has just been opened. */
 function setUp(first: Shape): void {
-  const rod = scene.rods[first.report.rod]
-  const startIsHeld = rod.supports?.some(({ at }: SceneJson) => at === 'start' || at === 0) ?? false
-  const surgical = String(scene.name ?? '').includes('suture')
-  stage.setScene(first, { square: isRectangle(rod), othersAreSquare: first.others.map(({ name }) => isRectangle(scene.rods[name])), surgical, startIsHeld })
+  const rods = [first.report.rod, ...first.others.map(({ name }) => name)].map((name) => scene.rods[name])
+  const isHeld = (rod: SceneJson, ...places: unknown[]) => rod.supports?.some(({ at }: SceneJson) => places.includes(at)) ?? false
+  stage.setScene(first, {
+    square: rods.map(isRectangle),
+    startIsHeld: rods.map((rod) => isHeld(rod, 'start', 0)),
+    endIsHeld: isHeld(rods[0], 'end', rods[0].length),
+    surgical: String(scene.name ?? '').includes('suture'),
+    skin: rods.length >= MANY && String(scene.name ?? '').includes('hair'),
+  })
   inspector.fillView()
   element('scene-name').textContent = spoken(scene.name ?? opened.name)
   markCurrent(element('rail'), scene.name)
@@ -117,7 +139,7 @@ function show(next: Shape, solved = true): void {
   inspector.show(next)
   const { advice } = judge(next.report)
   if (!next.report.settling) say(advice, advice && next.report.reason)
-  showLegend(element('legend'), stage.view, stage.tube.range)
+  showColours()
 }
 
 /** Says what went wrong and what to do; what only an expert wants to know is folded away. */
@@ -129,8 +151,8 @@ function say(message: string | null, details: string | null = null): void {
   element('message-more').textContent = details
 }
 
-/** Opens a scene in place of this one, and gives whether that worked. */
-async function open(text: string, name: string): Promise<boolean> {
+/** Opens a scene in place of this one, and gives whether that worked. Whether it then moves is what the scene says, unless it is given. */
+async function open(text: string, name: string, moves?: boolean): Promise<boolean> {
   solver.forget()
   const reply = await solver.ask({ kind: 'open', text, name })
   if (reply.kind !== 'opened') {
@@ -143,23 +165,32 @@ async function open(text: string, name: string): Promise<boolean> {
   // Where the hand was in the other scene means nothing in this one.
   ahead = false
   setPaused(false)
-  say(null)
+  mode.show(false)
   readout.clear()
   receive(reply)
+  // A scene that says how it moves is there to move.
+  if (moves ?? scene.dynamics) await setMotion(true, !matchMedia('(prefers-reduced-motion: reduce)').matches)
   return true
 }
 
 async function reset(): Promise<void> {
   const before = shape && now()
-  if ((await open(opened.text, opened.name)) && before) history.push(before)
+  if ((await open(opened.text, opened.name, motion.scenery !== null)) && before) history.push(before)
 }
 
 /** Edits are made one after the other: each starts from what the last has left. */
 let lastEdit = Promise.resolve()
+/** How many have not begun. */
+let waiting = 0
 
 function inTurn(work: () => Promise<void>): void {
+  waiting++
+  const begin = () => {
+    waiting--
+    return work()
+  }
   // One that breaks off must not hold up those after it.
-  lastEdit = lastEdit.then(work).catch((error) => {
+  lastEdit = lastEdit.then(begin).catch((error) => {
     refill()
     say(`This change could not be made (${error}).`)
   })
@@ -238,7 +269,25 @@ function setCoupling(index: number, value: number): void {
 function look(change: Partial<ViewOptions>): void {
   Object.assign(stage.view, change)
   stage.refresh()
-  showLegend(element('legend'), stage.view, stage.tube.range)
+  showColours()
+}
+
+function showColours(): void {
+  showLegend(element('legend'), stage.view, stage.tubes.range)
+}
+
+/** Lets the scene move from its start, or solves for where it rests. */
+async function setMotion(moves: boolean, plays = true): Promise<void> {
+  if (!shape) return
+  solver.forget()
+  const why = moves ? await mode.begin(shape, plays) : null
+  if (moves && !why) return
+  await mode.end()
+  stage.hand.set(shape.hand)
+  stage.setStill(shape)
+  readout.clear()
+  show(shape, false)
+  if (why) say(why)
 }
 
 async function save(kind: 'toml' | 'csv' | 'glb'): Promise<void> {
@@ -289,6 +338,7 @@ function listen(): void {
   on('redo', redo)
   on('reset', () => void reset())
   on('pause', () => setPaused(!paused))
+  on('motion', () => void setMotion(!motion.scenery))
   on('save-scene', () => void save('toml'))
   on('save-csv', () => void save('csv'))
   on('save-glb', () => void save('glb'))
@@ -310,7 +360,17 @@ function listen(): void {
     showSheet(null)
     dismissHints()
   }
-  listenToKeys(stage, { undo, redo, pause: () => setPaused(!paused), help: showGestures, escape, grabbed: remember, moved: moveHand })
+  listenToKeys(stage, {
+    undo, redo, help: showGestures, escape, moved: moveHand,
+    pause: () => (motion.scenery ? motion.setPlaying(!motion.playing) : setPaused(!paused)),
+    motion: () => void setMotion(!motion.scenery),
+    step: () => motion.step(),
+    rewind: () => motion.rewind(),
+    speed: (place) => motion.setSpeed(SPEEDS[place]),
+    grab: () => mode.grabEnd(),
+    moves: () => motion.scenery !== null,
+    grabbed: () => motion.scenery ?? remember(),
+  })
   addEventListener('resize', measure)
 }
 
@@ -336,15 +396,16 @@ async function start(): Promise<void> {
 
 function tick(): void {
   frames++
+  motion.tick()
   stage.draw()
   requestAnimationFrame(tick)
 }
 
 setInterval(() => {
-  element('fps').textContent = `${frames} /s`
+  for (const id of ['fps', 'motion-fps']) element(id).textContent = `${frames} /s`
   frames = 0
 }, 1000)
 // What the page's tests look at.
-Object.assign(window, { strands: { stage, readout, solver, moveHand } })
+Object.assign(window, { strands: { stage, readout, solver, motion, moveHand } })
 void start()
 tick()

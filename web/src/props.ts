@@ -107,8 +107,14 @@ export class Props {
   readonly below = new THREE.Group()
   /** Hold the thread between its ends. */
   readonly clips = new THREE.Group()
+  /** Hold the starts of the other threads. */
+  readonly roots = new THREE.Group()
+  /** Marks what a hand has grabbed. */
+  readonly hold = new THREE.Mesh(new THREE.SphereGeometry(1, 24, 16), new THREE.MeshStandardMaterial({ color: 0xd9480f, roughness: 0.4, transparent: true, opacity: 0.75 }))
+  #root = new THREE.SphereGeometry(1, 12, 8)
+  #radius = 1
   #dark = new THREE.MeshStandardMaterial({ color: 0x5a6675, roughness: 0.45 })
-  #parts = { needle: needle(), grip: grip(), tissue: tissue(), clamp: clamp(this.#dark), stand: stand(this.#dark) }
+  #parts = { needle: needle(), grip: grip(), tissue: tissue(), scalp: tissue(), clamp: clamp(this.#dark), stand: stand(this.#dark) }
 
   constructor() {
     this.end.add(this.#parts.needle, this.#parts.grip)
@@ -119,15 +125,19 @@ export class Props {
     }
   }
 
-  choose(surgical: boolean, startIsHeld: boolean): void {
+  /** `endIsFree` where nothing holds the end and no hand is to take it there. */
+  choose(surgical: boolean, startIsHeld: boolean, endIsFree: boolean): void {
     this.#parts.needle.visible = this.#parts.tissue.visible = surgical
-    this.#parts.grip.visible = this.#parts.clamp.visible = this.#parts.stand.visible = !surgical
+    this.#parts.grip.visible = !surgical && !endIsFree
+    this.#parts.clamp.visible = this.#parts.stand.visible = !surgical
     this.start.visible = this.below.visible = startIsHeld
   }
 
   /** Fits them to a scene of a size, to its start and floor, and the clamp and the grip to a thread that is drawn `radius` thick. */
   fit(size: number, radius: number, start: THREE.Vector3, floor: number): void {
     const scale = size / 0.2
+    this.#radius = radius
+    this.hold.scale.setScalar(Math.max(2 * radius, 0.012 * size))
     const wide = Math.min(Math.max(1, (1.5 * radius) / (0.0065 * scale)), 1.7)
     this.end.scale.setScalar(scale)
     this.start.scale.setScalar(scale)
@@ -140,6 +150,37 @@ export class Props {
     this.#parts.stand.visible &&= height < HANGS * size
     const [, foot] = this.#parts.stand.children
     foot.scale.z = (0.16 * scale) / height
+  }
+
+  /** Puts a root where each of these threads starts, and skin under all of them where they grow out of it. */
+  plant(starts: Float64Array[], skin: boolean): void {
+    for (const old of this.roots.children) if (old instanceof THREE.InstancedMesh) old.dispose()
+    this.roots.clear()
+    if (starts.length === 0) return
+    const roots = new THREE.InstancedMesh(this.#root, this.#dark, starts.length)
+    const size = (skin ? 1.2 : 2) * this.#radius
+    starts.forEach((frames, i) => roots.setMatrixAt(i, new THREE.Matrix4().makeScale(size, size, size).setPosition(frames[9], frames[10], frames[11])))
+    this.roots.add(roots)
+    if (skin) this.roots.add(this.#under(starts))
+    for (const part of this.roots.children) part.castShadow = part.receiveShadow = true
+  }
+
+  /** A flat mound whose surface goes through the roots of threads and faces as they do. */
+  #under(starts: Float64Array[]): THREE.Mesh {
+    const [centre, up] = [new THREE.Vector3(), new THREE.Vector3()]
+    for (const frames of starts) {
+      centre.add(new THREE.Vector3().fromArray(frames, 9).divideScalar(starts.length))
+      up.add(new THREE.Vector3().fromArray(frames, 6))
+    }
+    up.normalize()
+    const arms = starts.map((frames) => new THREE.Vector3().fromArray(frames, 9).sub(centre))
+    const wide = 1.8 * Math.max(...arms.map((arm) => arm.length()))
+    const top = Math.max(...arms.map((arm) => arm.dot(up))) + 0.03 * wide
+    const mound = this.#parts.scalp
+    mound.scale.set(wide, wide, 0.45 * wide)
+    mound.position.copy(centre).addScaledVector(up, top - 0.45 * wide)
+    mound.quaternion.setFromUnitVectors(new THREE.Vector3(0, 0, 1), up)
+    return mound
   }
 
   /** Makes as many clips as there are supports between the ends, of the clamp's size. */

@@ -43,19 +43,63 @@ export interface Body {
   halfExtent: Float64Array
 }
 
-/** The shape of the rod in the hand after a solve, and where the others are; what is of elements has six numbers each. */
-export interface Shape extends Body {
-  others: (Body & { name: string })[]
+/** What a rod's elements carry: six numbers each, in the body's frame. */
+export interface Carried {
   strain: Float64Array
   stress: Float64Array
   /** Elastic energy per length, J/m, one number an element. */
   energyDensity: Float64Array
+}
+
+/** The shape of the rod in the hand after a solve, and where the others are. */
+export interface Shape extends Body, Carried {
+  others: (Body & { name: string })[]
   hand: Float64Array
   report: Report
   /** Hand, coupling and solution, to go back to. */
   snapshot: Float64Array
   /** Time of the solve, ms. */
   milliseconds: number
+}
+
+/** A rod that moves. */
+export interface MovingRod {
+  name: string
+  nodes: number
+  halfExtent: Float64Array
+}
+
+/** How a motion goes, as the solver reports it. */
+export interface MotionReport {
+  /** s */
+  time: number
+  time_step: number
+  /** Since the start. */
+  steps: number
+  /** How much time was to pass since the start and did not, s. */
+  behind: number
+  /** Energies, J. */
+  kinetic: number
+  elastic: number
+  load: number
+  dissipated: number
+  /** What hands have put in. */
+  worked: number
+  /** Of the last step. */
+  iterations: number
+  residual: number | null
+  /** What a step of the last answer took, ms; null where it made none. */
+  step_ms: number | null
+  /** Why the last step was not made. */
+  failure: string | null
+  /** The force of the hand, N. */
+  grabbed: { rod: number; node: number; force: [number, number, number] } | null
+}
+
+/** Where all rods are at some time; every array has one rod after the other. */
+export interface Moved extends Carried {
+  frames: Float64Array
+  report: MotionReport
 }
 
 /** Position and quaternion `[x, y, z, qw, qx, qy, qz]`. */
@@ -70,12 +114,24 @@ export type Request =
   | { kind: 'mode'; mode: HandMode }
   | { kind: 'coupling'; values: number[] }
   | { kind: 'toml' | 'csv' | 'glb' }
+  /** Lets the scene move from its start, in place of solving for where it rests; and the other way round. */
+  | { kind: 'motion' | 'statics' }
+  /** Lets time pass (s) for at most so many ms, with the hand that has grabbed where it is now. */
+  | { kind: 'advance'; seconds: number; budget: number; hand: HandPose | null }
+  | { kind: 'step'; hand: HandPose | null }
+  | { kind: 'rewind' }
+  | { kind: 'grab'; rod: number; node: number }
+  | { kind: 'release' }
+  /** How the air moves, m/s. */
+  | { kind: 'wind'; velocity: [number, number, number] }
 
 export type Reply =
   | { kind: 'bundled'; scenes: { name: string; title: string; text: string }[] }
   | { kind: 'opened'; scene: string; coupling: number[]; shape: Shape }
   | { kind: 'shape'; shape: Shape; scene: string | null; coupling: number[] }
   | { kind: 'error'; message: string }
+  | { kind: 'moving'; rods: MovingRod[]; moved: Moved }
+  | { kind: 'moved'; moved: Moved }
   | { kind: 'file'; name: string; data: string | Uint8Array }
   /** Nobody asked: the worker has come nearer to a hand that it did not reach at once. */
   | { kind: 'settled'; shape: Shape }

@@ -11,7 +11,7 @@ const TOLD = 2000
 const FADES = 300
 
 export interface Verdict {
-  kind: 'stable' | 'converged' | 'unstable' | 'failed' | 'away' | 'following'
+  kind: 'stable' | 'converged' | 'unstable' | 'failed' | 'away' | 'following' | 'moving' | 'slow' | 'still'
   badge: string
   /** What to do where something went wrong. */
   advice: string | null
@@ -44,7 +44,7 @@ export class Readout {
 
   clear(): void {
     this.times.length = 0
-    this.plot.clear()
+    this.plot.use({ names: ['torque', 'force'], together: false, label: 'Force and torque at the hand over the last ten seconds' })
     this.#forgetSnap()
   }
 
@@ -82,7 +82,7 @@ export class Readout {
       time: sorted.length ? `${threeDigits(at(0.5))} ms, p99 ${threeDigits(at(0.99))}` : '–',
     }
     for (const [id, text] of Object.entries(texts)) document.getElementById(id)!.textContent = text
-    this.plot.add(force, torque)
+    this.plot.add(torque, force)
     if (report.snapped) this.#tellSnap()
     const verdict = judge(report)
     // Most ways are too short to be seen.

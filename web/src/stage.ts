@@ -7,9 +7,11 @@ import { Arrows, type Insets } from './arrows'
 import { Glyphs, type GlyphOptions } from './glyphs'
 import { Ground } from './ground'
 import { Hand } from './hand'
+import { onPage, pick, type Picked } from './pick'
+import { length, measured, place, places } from './places'
 import { Props } from './props'
-import type { Shape } from './protocol'
-import { Tube, type Look } from './tube'
+import type { Body, Carried, MotionReport, Shape } from './protocol'
+import { MANY, Tubes, type Look, type Strand } from './tubes'
 
 export interface ViewOptions extends Look, GlyphOptions {
   arrows: boolean
@@ -17,11 +19,21 @@ export interface ViewOptions extends Look, GlyphOptions {
 
 /** What the stage must know of a scene beside its shape. */
 export interface Setting {
-  square: boolean
-  /** One for each rod that the hand does not hold. */
-  othersAreSquare: boolean[]
+  /** Which rods are rectangles, that in the hand first. */
+  square: boolean[]
+  /** Which of them have their start held. */
+  startIsHeld: boolean[]
+  endIsHeld: boolean
   surgical: boolean
-  startIsHeld: boolean
+  /** Whether they grow out of skin. */
+  skin: boolean
+}
+
+/** All rods of a scene in motion, and which of them is the one in the hand of statics. */
+export interface Scenery {
+  rods: (Body & Carried)[]
+  held: number
+  report: MotionReport
 }
 
 /** The backdrop’s colours from the top down. */
@@ -36,9 +48,7 @@ const MARGIN = { x: 0.15, y: 0.2 }
 const FIRST_VIEW = new THREE.Vector3(0.35, -1.45, 0.55).normalize()
 
 export class Stage {
-  readonly tube = new Tube()
-  /** The threads that are not in the hand. */
-  readonly others = new THREE.Group()
+  readonly tubes = new Tubes()
   readonly hand = new Hand()
   readonly camera = new THREE.PerspectiveCamera(32, 1, 0.001, 50)
   readonly orbit: OrbitControls
@@ -48,7 +58,6 @@ export class Stage {
   }
   /** The size of the scene, m. */
   size = 0.2
-  #others: Tube[] = []
   #renderer: THREE.WebGLRenderer
   #scene = new THREE.Scene()
   #props = new Props()
@@ -60,6 +69,13 @@ export class Stage {
   #fill = new THREE.HemisphereLight(0xe6eeff, 0xa39a8c)
   #gap = new THREE.Line(new THREE.BufferGeometry(), new THREE.LineDashedMaterial({ color: 0xd0242f }))
   #shape: Shape | null = null
+  #setting: Setting = { square: [], startIsHeld: [], endIsHeld: false, surgical: false, skin: false }
+  /** What moves, in place of the shape. */
+  #moving: Scenery | null = null
+  /** What else a view of all of the scene shows. */
+  #reach: THREE.Vector3[] = []
+  #clips: number[] = []
+  #radius = 1
   #floor = 0
   #insets: Insets = { left: 0, right: 0, top: 0, bottom: 0 }
   #dirty = true
@@ -92,8 +108,8 @@ export class Stage {
       onGizmo()
     })
     this.#rim.position.set(0.6, 1, 0.5)
-    this.#scene.add(this.#fill, this.#rim, this.#key, this.#key.target, this.#ground.group, this.tube.mesh, this.others, this.#glyphs.lines)
-    this.#scene.add(this.#props.end, this.#props.start, this.#props.below, this.#props.clips, this.#gap, this.#arrows.group, this.gizmo.getHelper())
+    this.#scene.add(this.#fill, this.#rim, this.#key, this.#key.target, this.#ground.group, this.tubes.mesh, this.#glyphs.lines)
+    this.#scene.add(this.#props.end, this.#props.start, this.#props.below, this.#props.clips, this.#props.roots, this.#props.hold, this.#gap, this.#arrows.group, this.gizmo.getHelper())
     this.#gap.visible = this.#glyphs.lines.visible = false
     this.#gap.frustumCulled = false
     // The ring of the focus is for the keyboard.
@@ -125,45 +141,113 @@ export class Stage {
   /** Prepares for a new scene: its things, the size of them, and a view of all of it. */
   setScene(shape: Shape, setting: Setting): void {
     this.#shape = shape
-    const { box, size, radius } = this.#measure(shape)
+    this.#setting = setting
+    this.#moving = null
+    const all = [shape, ...shape.others]
+    const { box, size, radius } = measured(all)
     this.size = size
+    this.#radius = radius
     this.#floor = box.min.z - DROP * size
-    this.tube.setSection(setting.square)
-    for (const tube of this.#others) tube.dispose()
-    this.#others = setting.othersAreSquare.map((square) => {
-      const tube = new Tube()
-      tube.setSection(square)
-      return tube
-    })
-    this.others.clear()
-    for (const tube of this.#others) this.others.add(tube.mesh)
-    this.#props.choose(setting.surgical, setting.startIsHeld)
-    const thin = (LEAST_RADIUS * size) / radius
+    this.#reach = []
+    this.#clips = shape.report.between.map(({ node }) => node)
+    // Of many threads each is drawn thinner, so that they stay apart.
+    const thin = (LEAST_RADIUS * size) / radius / Math.max(1, all.length / 4) ** 0.25
     this.view.displayScale = thin <= 1 ? 1 : thin < 3 ? Math.ceil(thin * 2) / 2 : Math.ceil(thin)
-    this.#props.fit(size, radius * this.view.displayScale, new THREE.Vector3().fromArray(shape.frames, 9), this.#floor)
+    this.#furnish(all)
+    this.#lookAt(places(all), FIRST_VIEW)
+  }
+
+  /** Chooses and fits the things beside the threads, that in the hand first. */
+  #furnish([held, ...others]: Strand[]): void {
+    const { square, startIsHeld, endIsHeld, surgical, skin } = this.#setting
+    this.tubes.setSections(square)
+    const bundle = square.length >= MANY
+    this.#props.choose(surgical, startIsHeld[0] && !bundle, this.#moving !== null && !endIsHeld)
+    this.#props.fit(this.size, this.#radius * this.view.displayScale, new THREE.Vector3().fromArray(held.frames, 9), this.#floor)
+    const roots = [held, ...others].filter((_, i) => startIsHeld[i] && (bundle || i > 0))
+    this.#props.plant(roots.map(({ frames }) => frames), skin)
+    this.#props.countClips(this.#clips.length)
     this.gizmo.detach()
-    this.#lookAt(shape, FIRST_VIEW)
+  }
+
+  /** Prepares for the scene, whose shape at rest is given, to move: there is room for what swings. */
+  setMoving(moving: Scenery, rest: Shape): void {
+    this.#moving = moving
+    this.#shape = rest
+    const rests = places([this.#shape!, ...this.#shape!.others])
+    const starts = places(this.#ordered(moving))
+    const farthest = starts.reduce((most, at, i) => Math.max(most, at.distanceTo(rests[i] ?? at)), 0)
+    const held = moving.rods[moving.held].frames
+    const root = new THREE.Vector3().fromArray(held, 9)
+    // What swings comes up again on the other side.
+    const swings = moving.rods.length < MANY && farthest > 0.2 * this.size && this.#setting.startIsHeld[0] && !this.#setting.endIsHeld
+    const others = swings ? starts.map((at) => new THREE.Vector3(2 * root.x - at.x, 2 * root.y - at.y, Math.min(at.z, root.z))) : []
+    this.#reach = [...rests, ...starts, ...others]
+    const box = new THREE.Box3().setFromPoints(this.#reach)
+    const least = this.#setting.endIsHeld ? box.min.z : Math.min(box.min.z, root.z - length(held))
+    this.#floor = least - DROP * this.size
+    this.#furnish(this.#ordered(moving))
+    this.#lookAt(this.#reach, FIRST_VIEW)
+  }
+
+  /** Ends the motion: the scene rests again. */
+  setStill(shape: Shape): void {
+    this.setScene(shape, this.#setting)
+    this.show(shape)
+  }
+
+  /** The rods in the order of statics: that in the hand first. */
+  #ordered({ rods, held }: Scenery): (Body & Carried)[] {
+    return [rods[held], ...rods.filter((_, i) => i !== held)]
   }
 
   /** Shows a shape. The needle goes where the thread's end is; a dashed line leads to a hand that it cannot reach. */
   show(shape: Shape): void {
     this.#shape = shape
-    this.tube.update(shape, this.view)
-    this.#others.forEach((tube, i) => tube.updateQuiet(shape.others[i], this.view.displayScale))
-    const nodes = shape.frames.length / 12
-    const { start, end } = this.#props
-    if (!this.gizmo.dragging) place(end, shape.frames, nodes - 1)
-    place(start, shape.frames, 0)
-    this.#props.countClips(shape.report.between.length)
-    this.#props.clips.children.forEach((clip, i) => place(clip, shape.frames, shape.report.between[i].node))
-    const tip = new THREE.Vector3().fromArray(shape.frames, 12 * nodes - 3)
+    this.tubes.update([shape, ...shape.others], this.view)
+    const tip = this.#place(shape)
     const hand = new THREE.Vector3().fromArray(shape.hand, 0)
-    this.#gap.visible = hand.distanceTo(tip) > 2e-3 * this.size && shape.report.mode === 'pose'
-    this.#gap.geometry.setFromPoints([tip, hand])
-    this.#gap.computeLineDistances()
-    this.#arrows.show(shape, this.view.arrows, this.size, [start.position, tip])
+    this.#props.hold.visible = false
+    this.#connect(tip, hand, hand.distanceTo(tip) > 2e-3 * this.size && shape.report.mode === 'pose')
+    const { start, end } = shape.report
+    this.#arrows.show([start, end], this.view.arrows, this.size, [this.#props.start.position, tip])
     this.#glyphs.show(shape, this.view, this.size)
     this.#dirty = true
+  }
+
+  /** Shows where all that moves is. What is grabbed is marked, and a dashed line leads to a hand that is elsewhere. */
+  showMoving(moving: Scenery): void {
+    this.#moving = moving
+    const held = moving.rods[moving.held]
+    this.tubes.update(this.#ordered(moving), this.view, true)
+    this.#place(held)
+    const { grabbed } = moving.report
+    const at = new THREE.Vector3()
+    if (grabbed) at.fromArray(moving.rods[grabbed.rod].frames, 12 * grabbed.node + 9)
+    this.#props.hold.visible = grabbed !== null
+    this.#props.hold.position.copy(at)
+    this.#connect(at, this.hand.position, grabbed !== null && at.distanceTo(this.hand.position) > 0.01 * this.size)
+    const pull = grabbed ? [{ force: grabbed.force, moment: NOTHING }] : []
+    this.#arrows.show(pull, this.view.arrows, this.size, [at])
+    this.#glyphs.show(held, this.view, this.size)
+    this.#dirty = true
+  }
+
+  /** Puts the things at both ends of a thread and between, and gives where its end is. */
+  #place({ frames }: Body): THREE.Vector3 {
+    const last = frames.length / 12 - 1
+    const { start, end, clips } = this.#props
+    if (!this.gizmo.dragging) place(end, frames, last)
+    place(start, frames, 0)
+    clips.children.forEach((clip, i) => place(clip, frames, this.#clips[i]))
+    return new THREE.Vector3().fromArray(frames, 12 * last + 9)
+  }
+
+  #connect(from: THREE.Vector3, to: THREE.Vector3, visible: boolean): void {
+    this.#gap.visible = visible
+    if (!visible) return
+    this.#gap.geometry.setFromPoints([from, to])
+    this.#gap.computeLineDistances()
   }
 
   /** Whether a line leads from the thread's end to a hand that is elsewhere. */
@@ -172,12 +256,40 @@ export class Stage {
   }
 
   refresh(): void {
-    if (this.#shape) this.show(this.#shape)
+    if (this.#moving) this.showMoving(this.#moving)
+    else if (this.#shape) this.show(this.#shape)
   }
 
-  /** Turns to see all of the shape, from where the eye is. */
+  /** Turns to see all of the scene, from where the eye is. */
   frameAll(): void {
-    if (this.#shape) this.#lookAt(this.#shape, this.camera.position.clone().sub(this.orbit.target).normalize())
+    if (!this.#shape) return
+    const all = [...places(this.#drawn()), ...this.#reach]
+    this.#lookAt(all, this.camera.position.clone().sub(this.orbit.target).normalize())
+  }
+
+  /** The threads on the stage, that in the hand first. */
+  #drawn(): Strand[] {
+    return this.#moving ? this.#ordered(this.#moving) : [this.#shape!, ...this.#shape!.others]
+  }
+
+  /** The place of a moving rod that a pointer at a place of the page takes hold of, within a reach, px. */
+  pick(x: number, y: number, reach: number): Picked | null {
+    if (!this.#moving) return null
+    const box = this.canvas.getBoundingClientRect()
+    return pick(this.#moving.rods, this.camera, box, new THREE.Vector2(x - box.left, y - box.top), reach, this.view.displayScale)
+  }
+
+  /** Where a node of a moving rod is on the page, px. */
+  nodeOnPage({ rod, node }: Picked): [number, number] {
+    const box = this.canvas.getBoundingClientRect()
+    this.camera.updateMatrixWorld()
+    const { x, y } = onPage(new THREE.Vector3().fromArray(this.#moving!.rods[rod].frames, 12 * node + 9), this.camera, box)
+    return [box.left + x, box.top + y]
+  }
+
+  /** Puts the hand where a node of a moving rod is. */
+  handTo({ rod, node }: Picked): void {
+    place(this.hand, this.#moving!.rods[rod].frames, node)
   }
 
   /** Says what panels cover: the scene is shown in the middle of the rest. */
@@ -210,14 +322,19 @@ export class Stage {
     this.#dirty = true
   }
 
+  /** Whether a place of the page is within so many px of a handle of the hand. */
+  nearHandle(x: number, y: number, reach: number): boolean {
+    return this.handlesOnPage().some((at) => Math.hypot(x - at[0], y - at[1]) < reach)
+  }
+
   /** Where the hand's handles are on the page, px; the first is the thread's end. */
   handlesOnPage(): [number, number][] {
     const box = this.canvas.getBoundingClientRect()
     this.camera.updateMatrixWorld()
     this.#props.end.updateMatrixWorld()
     return this.#props.handles.map((handle) => {
-      const at = handle.applyMatrix4(this.#props.end.matrixWorld).project(this.camera)
-      return [box.left + ((at.x + 1) / 2) * box.width, box.top + ((1 - at.y) / 2) * box.height]
+      const { x, y } = onPage(handle.applyMatrix4(this.#props.end.matrixWorld), this.camera, box)
+      return [box.left + x, box.top + y]
     })
   }
 
@@ -246,23 +363,17 @@ export class Stage {
   #extent(): number {
     this.camera.updateProjectionMatrix()
     let most = 0.1
-    for (const at of places(this.#shape!)) {
+    for (const at of places(this.#drawn())) {
       const { x, y } = at.project(this.camera)
       most = Math.max(most, Math.abs(x), Math.abs(y))
     }
     return most
   }
 
-  #measure(shape: Shape): { box: THREE.Box3; size: number; radius: number } {
-    const box = new THREE.Box3()
-    for (const at of places(shape)) box.expandByPoint(at)
-    const radius = shape.halfExtent.reduce((most, a) => Math.max(most, a), 1e-9)
-    return { box, size: Math.max(box.getSize(new THREE.Vector3()).length(), 0.02), radius }
-  }
-
-  #lookAt(shape: Shape, direction: THREE.Vector3): void {
-    const { box, size } = this.#measure(shape)
-    const centre = box.getCenter(new THREE.Vector3())
+  /** Turns to see some places, from a direction. */
+  #lookAt(all: THREE.Vector3[], direction: THREE.Vector3): void {
+    const centre = new THREE.Box3().setFromPoints(all).getCenter(new THREE.Vector3())
+    const { size } = this
     // So near that thread and arrows fill the free part of the window.
     const { clientWidth: width, clientHeight: height } = this.canvas
     const { left, right, top, bottom } = this.#insets
@@ -271,8 +382,8 @@ export class Stage {
     const sideways = new THREE.Vector3().crossVectors(this.camera.up, direction).normalize()
     const upwards = new THREE.Vector3().crossVectors(direction, sideways)
     let distance = 0
-    for (const at of places(shape)) {
-      at.sub(centre)
+    for (const place of all) {
+      const at = place.clone().sub(centre)
       const x = Math.abs(at.dot(sideways)) + MARGIN.x * size
       const y = Math.abs(at.dot(upwards)) + MARGIN.y * size
       distance = Math.max(distance, at.dot(direction) + Math.max(x / wide, y / high))
@@ -312,20 +423,7 @@ export class Stage {
   }
 }
 
-/** The places of the nodes of all rods. */
-function places(shape: Shape): THREE.Vector3[] {
-  return [shape, ...shape.others].flatMap(({ frames }) =>
-    Array.from({ length: frames.length / 12 }, (_, i) => new THREE.Vector3().fromArray(frames, 12 * i + 9)),
-  )
-}
-
-/** Puts a thing where a node is, keeping its scale. */
-function place(thing: THREE.Object3D, frames: Float64Array, node: number): void {
-  const f = frames.subarray(12 * node, 12 * node + 12)
-  const turn = new THREE.Matrix4().set(f[0], f[3], f[6], 0, f[1], f[4], f[7], 0, f[2], f[5], f[8], 0, 0, 0, 0, 1)
-  thing.position.set(f[9], f[10], f[11])
-  thing.quaternion.setFromRotationMatrix(turn)
-}
+const NOTHING: [number, number, number] = [0, 0, 0]
 
 /** A picture of two rows or more of colours, blended from the top down. */
 function backdrop(colours: number[]): THREE.Texture {

@@ -5,6 +5,7 @@
 
 import init, { Session, bundled } from './wasm/strands_wasm.js'
 import wasm from './wasm/strands_wasm_bg.wasm?url'
+import { Mover } from './mover'
 import type { Reply, Request, Shape } from './protocol'
 
 /** How long the worker goes on, ms, before it looks for messages and shows how far it is. */
@@ -12,6 +13,8 @@ const BIT = 8
 
 const ready = init({ module_or_path: wasm })
 let session: Session | null = null
+/** The scene in motion, while it is. */
+let mover: Mover | null = null
 let lastSolve = performance.now()
 /** Counts the requests: whoever settles stops at a newer one. */
 let requests = 0
@@ -46,6 +49,7 @@ function answer(request: Request): Reply {
     let opened: Session | null = null
     const milliseconds = timed(() => (opened = new Session(request.text, request.name)))
     session?.free()
+    stand()
     session = opened as unknown as Session
     return { kind: 'opened', scene: session.scene_json(), coupling: Array.from(session.coupling()), shape: shape(session, milliseconds) }
   }
@@ -54,7 +58,18 @@ function answer(request: Request): Reply {
   const changed = (milliseconds: number, scene: string | null): Reply => {
     return { kind: 'shape', shape: shape(open, milliseconds), scene, coupling: Array.from(open.coupling()) }
   }
+  const moved = mover?.answer(request)
+  if (moved) return moved
   switch (request.kind) {
+    case 'motion': {
+      const next = new Mover(open.scene_toml())
+      stand()
+      mover = next
+      return next.start()
+    }
+    case 'statics':
+      stand()
+      return changed(0, null)
     case 'replace': {
       const milliseconds = timed(() => open.replace(request.text, 'scene.json'))
       return changed(milliseconds, open.scene_json())
@@ -86,7 +101,15 @@ function answer(request: Request): Reply {
       return { kind: 'file', name: 'shape.csv', data: open.shape_csv() }
     case 'glb':
       return { kind: 'file', name: 'shape.glb', data: open.shape_glb() }
+    default:
+      return { kind: 'error', message: 'Nothing moves: let the scene move first.' }
   }
+}
+
+/** Ends a motion. */
+function stand(): void {
+  mover?.free()
+  mover = null
 }
 
 const say = (reply: Reply) => self.postMessage(reply)
@@ -106,7 +129,7 @@ function breathe(): Promise<void> {
 /** Goes on towards the hand until it is reached, nothing is left to try, or something else is asked for. */
 async function settle(turn: number): Promise<void> {
   await breathe()
-  while (settling && turn === requests && session) {
+  while (settling && !mover && turn === requests && session) {
     const open = session
     const start = performance.now()
     let more = true
@@ -121,8 +144,9 @@ async function settle(turn: number): Promise<void> {
 /** What to tell a person of an error. */
 function explained(error: unknown): string {
   if (!(error instanceof WebAssembly.RuntimeError)) return String(error)
-  // A session that has stopped in the middle of its work cannot be used again.
+  // What has stopped in the middle of its work cannot be used again.
   session = null
+  mover = null
   settling = false
   return `The solver stopped unexpectedly (${error.message}). Reset opens the scene anew.`
 }

@@ -72,6 +72,9 @@ export const value = (page, id) => page.locator(`#${id}`).inputValue()
 export const until = (page, work, argument) => page.waitForFunction(work, argument, { timeout: 20000, polling: 30 })
 export const badge = (page, ...wanted) => until(page, (wanted) => wanted.includes(document.getElementById('badge').textContent), wanted)
 
+/** What the badge says in motion. */
+const MOVES = ['moving', 'paused', 'slow']
+
 /** Types a number into a field. */
 export async function type(page, id, number) {
   await page.locator(`#${id}`).fill(String(number))
@@ -95,11 +98,13 @@ export async function done(page) {
   for (let i = 0; i < 3; i++) await page.evaluate(() => window.strands.solver.ask({ kind: 'csv' }))
 }
 
-/** Opens a scene of the rail. */
+/** Opens a scene of the rail, and stops it where it moves by itself. */
 export async function openScene(page, name) {
   await page.locator(`#rail button[data-name=${name}]`).click()
   await done(page)
   await until(page, (name) => document.querySelector(`#rail [data-name=${name}]`).getAttribute('aria-current') === 'true', name)
+  await badge(page, 'stable', 'converged', ...MOVES)
+  if (await page.locator('#time-bar').isVisible()) await page.locator('#motion').click()
   await badge(page, 'stable', 'converged')
 }
 
@@ -107,7 +112,7 @@ export async function openScene(page, name) {
 export async function openText(page, name, text) {
   await page.locator('#file').setInputFiles({ name: `${name}.toml`, mimeType: 'text/plain', buffer: Buffer.from(text) })
   await until(page, (name) => document.getElementById('scene-name').textContent.toLowerCase() === name, name)
-  await badge(page, 'stable', 'converged')
+  await badge(page, 'stable', 'converged', ...MOVES)
 }
 
 /** Where the thread's end is on the page. */

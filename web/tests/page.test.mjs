@@ -12,7 +12,7 @@ after(async () => context.stop())
 test('every bundled scene opens with a picture, is stable, and its end can be dragged', async () => {
   const { page, complaints } = await openPage(context, context.address)
   const names = await page.locator('#rail button').evaluateAll((all) => all.map((one) => one.dataset.name))
-  assert.equal(names.length, 8)
+  assert.equal(names.length, 11)
   for (const name of names) {
     await openScene(page, name)
     assert.ok(await page.locator(`#rail [data-name=${name}] img`).evaluate((image) => image.naturalWidth > 0), name)

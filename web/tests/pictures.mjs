@@ -1,4 +1,5 @@
-// Renders the pictures of the rail and of the README from the built page: `npm run build && npm run pictures`.
+// Renders the pictures of the rail and of the README from the built page: `npm run build && npm run pictures`, or of some scenes alone:
+// `npm run pictures -- whip hair_tuft`.
 
 import { mkdir, writeFile } from 'node:fs/promises'
 import { fileURLToPath } from 'node:url'
@@ -7,20 +8,33 @@ import { done, openPage, start } from './browser.mjs'
 const folder = fileURLToPath(new URL('../src/thumbnails/', import.meta.url))
 const readme = fileURLToPath(new URL('../../docs/page.png', import.meta.url))
 
-async function thumbnails(context) {
+/** When a scene that moves has its picture taken, s. */
+const MOMENT = 0.32
+
+async function thumbnails(context, wanted) {
   await mkdir(folder, { recursive: true })
   const { page } = await openPage(context, context.address, { width: 960, height: 600 }, 'light', { deviceScaleFactor: 1 })
-  for (const name of await page.locator('#rail button').evaluateAll((buttons) => buttons.map((button) => button.dataset.name))) {
+  const names = await page.locator('#rail button').evaluateAll((buttons) => buttons.map((button) => button.dataset.name))
+  for (const name of names.filter((name) => wanted.length === 0 || wanted.includes(name))) {
     await page.locator(`#rail button[data-name=${name}]`).click()
     await page.waitForFunction((name) => document.querySelector(`[data-name=${name}]`).getAttribute('aria-current') === 'true', name)
-    const data = await page.evaluate(() => {
-      const { stage } = window.strands
-      Object.assign(stage.view, { displayScale: 2.2 * stage.view.displayScale })
+    await done(page)
+    const data = await page.evaluate(async (moment) => {
+      const { stage, motion } = window.strands
+      if (motion.scenery) {
+        motion.rewind()
+        do {
+          motion.step()
+          await new Promise((resolve) => setTimeout(resolve, 5))
+        } while (motion.report.time < moment)
+      }
+      const thicker = stage.tubes.count > 1 ? 1 : 2.2
+      Object.assign(stage.view, { displayScale: thicker * stage.view.displayScale })
       stage.setInsets({ left: 0, right: 0, top: 0, bottom: 0 })
       stage.refresh()
       stage.frameAll()
       return stage.picture(224, 120)
-    })
+    }, MOMENT)
     await writeFile(`${folder}${name}.webp`, Buffer.from(data.split(',')[1], 'base64'))
   }
   await page.close()
@@ -50,7 +64,8 @@ async function page(context) {
   await page.close()
 }
 
+const wanted = process.argv.slice(2)
 const context = await start()
-await thumbnails(context)
-await page(context)
+await thumbnails(context, wanted)
+if (wanted.length === 0) await page(context)
 await context.stop()

@@ -30,6 +30,9 @@ const SCENES: &[Bundled] = &[
     scene!("hair_curl", "A curl of hair under its own weight"),
     scene!("clipped_cable", "A cable in seven clips"),
     scene!("cantilever", "A clamped strip with a force at its end"),
+    scene!("swinging_rope", "A rope that falls and swings"),
+    scene!("whip", "A whip that is raised and let fall"),
+    scene!("hair_tuft", "Fifty hairs that fall and sway"),
 ];
 
 /// All bundled scenes.

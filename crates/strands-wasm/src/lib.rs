@@ -1,10 +1,11 @@
 //! What the page calls: a scene that a hand can hold, solved frame by frame.
 //!
 //! [`Session`] keeps a scene, its last good solution and the hand. The page moves the hand and calls [`Session::solve`]; shapes come back as flat
-//! arrays of numbers, everything else as JSON. Errors are the texts that a person reads.
+//! arrays of numbers, everything else as JSON. Errors are the texts that a person reads. [`Motion`] is the same scene moving in time.
 
 mod bench;
 mod hand;
+mod motion;
 mod numbers;
 mod session;
 mod settle;
@@ -18,6 +19,7 @@ use strands_scene::ModelRod;
 use wasm_bindgen::prelude::*;
 
 pub use bench::bench;
+pub use motion::Motion;
 
 /// The bundled scenes as JSON: `[{ name, title, text }, …]`.
 #[wasm_bindgen]

@@ -443,7 +443,7 @@ fn checked(hand: &HandFile) -> Result<VirtualCoupling, String> {
     hand.coupling().map_err(|error| error.to_string())
 }
 
-fn read(text: &str, file_name: &str) -> Result<Scene, String> {
+pub fn read(text: &str, file_name: &str) -> Result<Scene, String> {
     let mut scene = Scene::parse(text, file_name, None).map_err(|error| error.to_string())?;
     scene.model = scene.model.refined().map_err(|error| error.to_string())?;
     Ok(scene)

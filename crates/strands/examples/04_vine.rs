@@ -56,12 +56,8 @@ fn main() -> Result<(), Box<dyn Error>> {
         vine.joints.push(joint);
     }
 
-    let settings = Settings {
-        integrator: Integrator::Bdf2,
-        time_step: 2e-3,
-        mass_damping: 2.0,
-        ..Settings::default()
-    };
+    let settings =
+        Settings { integrator: Integrator::Bdf2, time_step: 2e-3, mass_damping: 2.0, ..Settings::default() };
     let mut falling = Simulation::new(vine.clone(), settings, Start::Rest)?;
     for _ in 0..6 {
         let step = falling.advance(falling.state().time + 1.0)?;

@@ -1,0 +1,186 @@
+//! The rods of a scene in motion: the one place that speaks to [`strands::dynamics`].
+
+use strands::assembly::Member;
+use strands::coupling::Grip;
+use strands::dynamics::{Budget, Settings, Simulation, Start, Step};
+use strands::math::{Pose, Quat, Vec3};
+use strands::statics::{Problem, Support};
+use strands_scene::{DynamicsFile, Model};
+
+/// The residual at which a step is solved. What is over `EI/L²` is far less than any rod here weighs, and no eye sees it.
+const TOLERANCE: f64 = 1e-6;
+
+/// All rods of a scene.
+pub struct Rods {
+    names: Vec<String>,
+    simulation: Simulation,
+    /// How it began.
+    start: Simulation,
+    /// The frames before the last step.
+    before: Vec<Pose>,
+    last: Step,
+}
+
+/// What the elements of all rods bear, in flat arrays.
+#[derive(Debug, Default)]
+pub struct Borne {
+    /// Six numbers each, body frame.
+    pub strain: Vec<f64>,
+    pub stress: Vec<f64>,
+    /// Elastic energy per length, J/m.
+    pub energy_density: Vec<f64>,
+}
+
+impl Rods {
+    /// Puts the rods of a scene where they start.
+    ///
+    /// # Errors
+    /// Where the scene asks for what there is not, or a rod cannot move.
+    pub fn of(model: &Model) -> Result<Self, String> {
+        let settings = Settings { tolerance: TOLERANCE, ..model.motion() };
+        let start = start(&model.dynamics)?;
+        let sets_off = if matches!(start, Start::Rest) { model.velocities() } else { None };
+        let mut simulation =
+            Simulation::new(model.assembly(), settings, start).map_err(|error| error.to_string())?;
+        if let Some(velocities) = sets_off {
+            simulation.set_velocities(&velocities);
+        }
+        let names = model.rods.iter().map(|rod| rod.name.clone()).collect();
+        let before = simulation.state().poses.clone();
+        Ok(Self { names, start: simulation.clone(), simulation, before, last: AT_REST })
+    }
+
+    /// Goes back to the start.
+    pub fn rewind(&mut self) {
+        self.simulation.clone_from(&self.start);
+        self.before.clone_from(&self.simulation.state().poses);
+        self.last = AT_REST;
+    }
+
+    /// Makes a step.
+    ///
+    /// # Errors
+    /// Why there is no next one; all is then as before.
+    pub fn step(&mut self) -> Result<(), String> {
+        let before = self.simulation.state().poses.clone();
+        self.last = self.simulation.step().map_err(|failure| failure.to_string())?;
+        self.before = before;
+        Ok(())
+    }
+
+    /// Lets the air around move, m/s, from now on and from the start on.
+    pub fn set_wind(&mut self, velocity: Vec3) {
+        self.simulation.assembly_mut().wind = velocity;
+        self.start.assembly_mut().wind = velocity;
+    }
+
+    pub fn time(&self) -> f64 {
+        self.simulation.state().time
+    }
+
+    pub fn time_step(&self) -> f64 {
+        self.simulation.settings().time_step
+    }
+
+    pub fn last_step(&self) -> &Step {
+        &self.last
+    }
+
+    /// Where the energy is.
+    pub fn energy(&self) -> Budget {
+        self.simulation.energy()
+    }
+
+    /// Names and numbers of nodes, as JSON.
+    pub fn named(&self) -> serde_json::Value {
+        let one = |(rod, name): (usize, &String)| serde_json::json!({ "name": name, "nodes": self.simulation.assembly().nodes(rod).len() });
+        self.names.iter().enumerate().map(one).collect()
+    }
+
+    pub fn half_extent(&self) -> Vec<f64> {
+        let strands = &self.simulation.assembly().strands;
+        strands.iter().flat_map(|strand| strand.problem.rod.half_extent()).flatten().copied().collect()
+    }
+
+    /// The frames of all nodes so far on the way from before the last step to now.
+    pub fn between(&self, part: f64) -> Vec<Pose> {
+        let nodes = ..self.simulation.assembly().first_body();
+        let now = &self.simulation.state().poses[nodes];
+        if part >= 1.0 {
+            return now.to_vec();
+        }
+        self.before[nodes].iter().zip(now).map(|(from, to)| on_the_way(from, to, part)).collect()
+    }
+
+    /// What all elements bear.
+    pub fn borne(&self) -> Borne {
+        let (assembly, state) = (self.simulation.assembly(), self.simulation.state());
+        let mut all = Borne::default();
+        for (number, strand) in assembly.strands.iter().enumerate() {
+            let rod = &strand.problem.rod;
+            let (nodes, elements) = (assembly.nodes(number), assembly.elements(number));
+            let (strains, stresses) =
+                rod.strains_and_stresses(&state.poses[nodes], &state.wrenches[elements]);
+            all.strain.extend(strains.iter().flat_map(|strain| strain.to_array()));
+            all.stress.extend(stresses.iter().flat_map(|stress| stress.to_array()));
+            all.energy_density.extend(strains.iter().enumerate().map(|(e, strain)| {
+                let points = rod.points(e);
+                points.iter().map(|point| point.law.energy(*strain - point.rest)).sum::<f64>()
+                    / points.len() as f64
+            }));
+        }
+        all
+    }
+
+    /// A rod and what holds it; `None` where there are not so many.
+    pub fn problem(&self, rod: usize) -> Option<&Problem> {
+        self.simulation.assembly().strands.get(rod).map(|strand| &strand.problem)
+    }
+
+    /// Where a node is.
+    pub fn pose(&self, rod: usize, node: usize) -> Pose {
+        self.simulation.state().poses[self.simulation.assembly().nodes(rod).start + node]
+    }
+
+    /// Holds a node of a rod in another way, and gives how it was held so far. `None` takes a support between the ends away.
+    pub fn hold(&mut self, rod: usize, node: usize, support: Option<Support>) -> Option<Support> {
+        let problem = &mut self.simulation.assembly_mut().strands[rod].problem;
+        let place = problem.between.partition_point(|(other, _)| *other < node);
+        match (problem.support_mut(node), support) {
+            (Some(held), Some(support)) => Some(std::mem::replace(held, support)),
+            (Some(_), None) => Some(problem.between.remove(place).1),
+            (None, Some(support)) => {
+                problem.between.insert(place, (node, support));
+                None
+            }
+            (None, None) => None,
+        }
+    }
+
+    /// The grip of a node that a hand holds, to move the hand: it is there at the end of the next step.
+    pub fn grip_mut(&mut self, rod: usize, node: usize) -> Option<&mut Grip> {
+        let member = Member::Node { rod, node };
+        self.simulation.assembly_mut().support_mut(member).and_then(|support| support.grip.as_mut())
+    }
+
+    pub fn grip(&self, rod: usize, node: usize) -> Option<&Grip> {
+        self.problem(rod)?.support(node)?.grip.as_ref()
+    }
+}
+
+const AT_REST: Step = Step { time: 0.0, seconds: 0.0, iterations: 0, residual: 0.0, pieces: 0 };
+
+/// Where a scene starts.
+fn start(dynamics: &DynamicsFile) -> Result<Start, String> {
+    match dynamics.start.as_deref().unwrap_or("equilibrium") {
+        "equilibrium" => Ok(Start::Equilibrium),
+        "rest" => Ok(Start::Rest),
+        file => Err(format!("dynamics.start: the page cannot read {file}; give \"equilibrium\" or \"rest\"")),
+    }
+}
+
+/// A frame on the straight way between two, turned on the shorter one.
+pub fn on_the_way(from: &Pose, to: &Pose, part: f64) -> Pose {
+    let turn = Quat::from_rotation_vector(from.rotation.turn_to(&to.rotation) * part).to_matrix();
+    Pose { rotation: from.rotation * turn, position: from.position + (to.position - from.position) * part }
+}
