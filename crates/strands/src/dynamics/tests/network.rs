@@ -4,7 +4,7 @@ use super::{ALL, G, rod, simulated, suture};
 use crate::assembly::{Assembly, Body, Joint, JointKind, Member, Strand, ball};
 use crate::dynamics::{Integrator, Settings, Simulation, SimulationError, Start};
 use crate::load::NodalLoads;
-use crate::math::{Mat3, Pose, Quat, Vec3, Vec6};
+use crate::math::{Mat3, Pose, Quat, Vec3, Vec6, Wrench};
 use crate::rod::{Kinematics, Material, NodeInertia, Order, Profile, Rod, RodDescription, Section, Station};
 use crate::statics::{Problem, Support};
 
@@ -110,7 +110,7 @@ fn what_joints_tie_keeps_its_momentum_in_free_flight() {
     for strand in &mut weightless.strands {
         strand.problem.loads = NodalLoads::none(&strand.problem.rod);
     }
-    weightless.bodies[0].load = crate::math::Wrench::ZERO;
+    weightless.bodies[0].load = Wrench::ZERO;
     for integrator in ALL.into_iter().filter(|integrator| *integrator != Integrator::Midpoint) {
         let settings = Settings { integrator, time_step: 5e-4, ..Settings::default() };
         let mut simulation = Simulation::new(weightless.clone(), settings, Start::Rest).unwrap();
@@ -266,6 +266,86 @@ fn a_net_hangs_in_equilibrium_and_stays_there() {
     let held = corners.iter().map(|(rod, end)| simulation.reaction(node(*rod, *end)).linear);
     let held = held.fold(Vec3::ZERO, |sum, force| sum + force);
     assert!((held - Vec3::Z * weight).norm() < 1e-9 * weight, "{held:?}, {weight} expected");
+}
+
+/// By what each frame is out of balance without its joints, about the world's origin.
+fn out_of_balance(simulation: &Simulation) -> Vec<Wrench> {
+    let (assembly, state) = (simulation.assembly(), simulation.state());
+    let mut acts = Vec::new();
+    for (rod, strand) in assembly.strands.iter().enumerate() {
+        let poses = &state.poses[assembly.nodes(rod)];
+        let carried: Vec<Wrench> = (state.wrenches[assembly.elements(rod)].iter())
+            .zip(&poses[1..])
+            .map(|(wrench, far)| far.carry_wrench(*wrench))
+            .collect();
+        for (i, pose) in poses.iter().enumerate() {
+            let load = strand.problem.loads.world[i];
+            let mut sum = Wrench::new(load.angular + pose.position.cross(load.linear), load.linear);
+            carried.get(i).into_iter().for_each(|after| sum += *after);
+            i.checked_sub(1).into_iter().for_each(|before| sum -= carried[before]);
+            acts.push(sum);
+        }
+    }
+    for (body, pose) in assembly.bodies.iter().zip(&state.poses[assembly.first_body()..]) {
+        acts.push(Wrench::new(pose.position.cross(body.load.linear), body.load.linear));
+    }
+    acts
+}
+
+#[test]
+fn forces_and_moments_balance_at_every_junction() {
+    let settings = Settings { tolerance: 1e-12, ..Settings::default() };
+    let net = Simulation::new(net(5, 8), settings, Start::Equilibrium).unwrap();
+    let weight = 9.81 * net.assembly().strands.iter().map(|strand| strand.problem.rod.mass()).sum::<f64>();
+    let acts = out_of_balance(&net);
+    for joint in &net.assembly().joints {
+        let [a, b] = joint.between.map(|at| net.assembly().frame(at.member).unwrap());
+        let place = net.state().poses[a].position;
+        let held = [a, b].iter().any(|frame| {
+            let support = net.assembly().support(net.assembly().member(*frame));
+            support.is_some_and(Support::holds_anything)
+        });
+        let both = acts[a] + acts[b];
+        if !held {
+            assert!(both.linear.norm() < 1e-10 * weight, "{:e}", both.linear.norm() / weight);
+        }
+        // A ball bears no moment.
+        for acts in [acts[a], acts[b]] {
+            let moment = acts.angular - place.cross(acts.linear);
+            assert!(moment.norm() < 1e-10 * weight * 0.08, "{:e}", moment.norm());
+        }
+    }
+    let mut branched = mobile();
+    branched.strands[0] = clamped(branched.strands[0].clone());
+    // A hinge lets its branch down; there is but one place where it rests.
+    let branched = Simulation::new(branched, settings, Start::Equilibrium).unwrap();
+    let acts = out_of_balance(&branched);
+    let node = |rod: usize, node: usize| branched.assembly().nodes(rod).start + node;
+    let junctions = [
+        vec![node(0, 6), node(1, 0), node(2, 0)],
+        vec![node(1, 5), node(3, 0)],
+        vec![node(3, 5), branched.assembly().first_body()],
+    ];
+    for junction in &junctions {
+        let sum = junction.iter().fold(Wrench::ZERO, |sum, frame| sum + acts[*frame]);
+        assert!(sum.linear.norm() < 1e-10 * weight, "{:e}", sum.linear.norm() / weight);
+        assert!(sum.angular.norm() < 1e-10 * weight * 0.08, "{:e}", sum.angular.norm());
+    }
+}
+
+#[test]
+fn a_net_of_twenty_by_twenty_falls() {
+    let net = net(20, 38);
+    let settings = Settings { time_step: 2e-3, ..Settings::default() };
+    let mut simulation = Simulation::new(net, settings, Start::Rest).unwrap();
+    let began = simulation.energy().total();
+    let mut most: f64 = 0.0;
+    for _ in 0..25 {
+        assert_eq!(simulation.step().unwrap().pieces, 1);
+        most = most.max(simulation.energy().kinetic);
+    }
+    let lost = (began - simulation.energy().total()) / most;
+    assert!((-1e-3..0.05).contains(&lost), "{lost}");
 }
 
 #[test]
