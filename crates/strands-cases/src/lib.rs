@@ -37,6 +37,7 @@ mod expected;
 pub mod falling;
 mod heavy;
 mod lateral;
+pub mod net;
 mod planar;
 mod pose;
 mod setup;

@@ -2,6 +2,7 @@
 
 mod clock;
 mod instructions;
+mod motion;
 mod problems;
 
 pub use instructions::{count, run};
@@ -10,14 +11,15 @@ use std::hint::black_box;
 use std::time::Instant;
 
 use serde::Serialize;
-use strands::dynamics::{self, Integrator, Simulation, SimulationError, Start, StepFailure};
+use strands::dynamics::{SimulationError, StepFailure};
 use strands::math::{Pose, SimdLevel, Wrench};
 use strands::rod::{Kinematics, Order, RodError};
 use strands::statics::{
     Batch, BatchError, Guess, Jacobian, Method, Problem, Scheme, Settings, Solution, SolveFailure,
     SolveReport, Workspace, follow, solve,
 };
-use strands_cases::{bank, falling};
+use strands_cases::bank;
+use strands_cases::net::NetError;
 
 /// What `--help` says about the figures.
 pub const NAMES: &str = "\
@@ -37,12 +39,21 @@ Figures (of a steel wire 0.5 m long, 2 mm thick, where no other is named; one th
   batch.rod batch.faster           as equilibrium.warm, of eight rods followed side by side, each with a
                                    hand of its own, µs for one of them; and how many times faster than
                                    one after the other, in the same run
-  motion.bdf2 motion.sdirk4        the wire, clamped, straight at first, falls: one step of 2 ms, 100
+  motion.bdf2 .midpoint .sdirk4    the wire, clamped, straight at first, falls: one step of 2 ms, 100
                                    elements, µs; with .error, how far its tip is from its modes, root
                                    mean square over the first second, % of what it sinks by at rest
   motion.iteration.100 .1000 .10000
                                    of a step of 1 ms by bdf2, what one Newton iteration takes on that many
                                    elements, ns for each of a node's six numbers
+  motion.swing.25 .50 .100 .200    a suture of that many elements swings undamped, 1 ms a step, bdf2: how many
+                                   times faster than real time; .fine_wire, .tube of 100
+  motion.bounded.median .p999 .worst
+                                   the same suture of 200 elements, two Newton iterations a step, 60 s: one
+                                   step, ms
+  motion.rest .error               a steel wire of 0.8 m, 100 elements, damped, until its tip stays within
+                                   1e-3 of where it rests, ms; how far it then ends from there, over the fall
+  motion.tree motion.net           one step of the scene willow (242 elements, 4 ms) and of a net of 20 × 20
+                                   ropes (1,520 elements, 2 ms), ms
   jacobian.variational_lanes .variational .finite_differences .finite_difference_lanes
                                    one Jacobian, over one sweep of the same rod, from times of
                                    whole solves; by finite differences it is six sweeps, which
@@ -88,6 +99,12 @@ pub enum BenchError {
     /// A step could not be made.
     #[error(transparent)]
     Step(#[from] StepFailure),
+    /// A net could not be made.
+    #[error(transparent)]
+    Net(#[from] NetError),
+    /// A scene could not be read.
+    #[error(transparent)]
+    Scene(#[from] strands_scene::SceneError),
     /// Instructions could not be counted.
     #[error("{0}")]
     Count(String),
@@ -103,7 +120,7 @@ pub fn measure() -> Result<Vec<Figure>, BenchError> {
     figures.extend(warm()?);
     figures.extend(all_at_once()?);
     figures.extend(side_by_side()?);
-    figures.extend(motion()?);
+    figures.extend(motion::motion()?);
     figures.extend(jacobians()?);
     figures.extend(cost()?);
     figures.extend(workloads()?);
@@ -123,42 +140,6 @@ pub fn table(figures: &[Figure], level: SimdLevel) -> String {
 
 fn figure(name: impl Into<String>, value: f64, unit: &'static str) -> Figure {
     Figure { name: name.into(), value, unit }
-}
-
-/// The wire falls: the workload W-F of the peers.
-fn motion() -> Result<Vec<Figure>, BenchError> {
-    let fall = |integrator, elements, time_step| -> Result<Simulation, BenchError> {
-        let settings = dynamics::Settings { integrator, time_step, ..dynamics::Settings::default() };
-        Ok(Simulation::new(falling::problem(elements)?, settings, Start::Rest)?)
-    };
-    let mut figures = Vec::new();
-    for integrator in [Integrator::Bdf2, Integrator::Sdirk4] {
-        let mut simulation = fall(integrator, ELEMENTS, 2e-3)?;
-        let (mut times, mut squares) = (Vec::new(), 0.0);
-        while times.len() < 500 {
-            let start = Instant::now();
-            let step = black_box(simulation.step()?);
-            times.push(start.elapsed().as_secs_f64());
-            let tip = simulation.state().poses[ELEMENTS].position.x;
-            squares += (tip / falling::sag() - falling::sunk(step.time)).powi(2);
-        }
-        let error = (squares / times.len() as f64).sqrt();
-        let name = format!("motion.{}", integrator.name());
-        figures.push(figure(name.clone(), clock::quantile(&mut times, 0.5) * 1e6, "µs"));
-        figures.push(figure(format!("{name}.error"), error * 100.0, "%"));
-    }
-    for (elements, steps) in [(100, 500), (1_000, 50), (10_000, 5)] {
-        let mut simulation = fall(Integrator::Bdf2, elements, 1e-3)?;
-        simulation.step()?;
-        let (start, mut iterations) = (Instant::now(), 0);
-        for _ in 0..steps {
-            iterations += black_box(simulation.step()?).iterations;
-        }
-        let scalars = iterations as f64 * 6.0 * (elements + 1) as f64;
-        let time = start.elapsed().as_secs_f64() * 1e9 / scalars;
-        figures.push(figure(format!("motion.iteration.{elements}"), time, "ns"));
-    }
-    Ok(figures)
 }
 
 /// Rods drawn at random, each solved once, from rest.
