@@ -156,8 +156,8 @@ impl Simulation {
     /// A piece of a step, of which the middle and the length are given over the whole.
     pub(super) fn midpoint(&mut self, held: &Held, middle: f64, length: f64) -> Result<Taken, StepFailure> {
         let step = self.work.step * length;
+        self.begin();
         let stage = &mut self.work.stage;
-        stage.begin(&self.state);
         stage.set_up(0.5 * step, &self.state);
         held.halfway(middle, self);
         let Work { stage, poses, .. } = &mut self.work;

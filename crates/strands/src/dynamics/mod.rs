@@ -26,6 +26,7 @@ use crate::assembly::{Assembly, Body, Cluster, JointKind, Strand, Ties};
 use crate::math::{Pose, SimdLevel, Vec3, Vec6, Wrench};
 use crate::rod::{NodeInertia, Order};
 use crate::statics::{Network, Problem};
+use core::ops::Range;
 use newton::{Group, RodSystem};
 use stage::Stage;
 
@@ -137,6 +138,10 @@ struct Work {
     /// Rates of the coordinates, and momenta of the stages before, of all frames one stage after the other.
     coordinate_rates: Vec<Vec6>,
     momentum_rates: Vec<Wrench>,
+    /// The same of the exponents of all elements.
+    strain_rates: Vec<Vec6>,
+    /// The nodes and the elements of viscous rods.
+    viscous: Vec<(Range<usize>, Range<usize>)>,
     history: Vec<f64>,
 }
 
@@ -181,6 +186,8 @@ impl Simulation {
             step: settings.time_step,
             coordinate_rates: Vec::new(),
             momentum_rates: Vec::new(),
+            strain_rates: Vec::new(),
+            viscous: Vec::new(),
             history: Vec::new(),
         };
         let state = State::at_rest(&assembly, assembly.rest_poses(), settings.time_step);
@@ -222,14 +229,20 @@ impl Simulation {
         let past = match &state.past {
             Past::None => [needed; 2],
             Past::Before { poses, momenta } => [poses.len(), momenta.len()],
-            Past::Rates { momentum, mean_velocity, mean_momentum } => {
+            Past::Rates { momentum, mean_velocity, mean_momentum, .. } => {
                 [momentum.len(), mean_velocity.len().max(mean_momentum.len())]
             }
+        };
+        let elements = self.state.wrenches.len();
+        let strains = match &state.past {
+            Past::Rates { strain, mean_strain, .. } => [strain.len(), mean_strain.len()],
+            _ => [elements; 2],
         };
         let fits = got == needed
             && [state.velocities.len(), state.momenta.len()] == [needed; 2]
             && past == [needed; 2]
-            && state.wrenches.len() == self.state.wrenches.len();
+            && strains == [elements; 2]
+            && state.wrenches.len() == elements;
         if !fits {
             return Err(SimulationError::Unfit { got, needed });
         }

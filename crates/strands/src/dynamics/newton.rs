@@ -71,7 +71,7 @@ impl RodSystem {
         }
         stage.take_inertia(nodes, given.inertia, poses, given.origin, &resistance, given.level);
         if viscosity > 0.0 {
-            stage.take_viscosity(elements, self.first, elastic, viscosity, poses);
+            stage.take_viscosity(elements, elastic, viscosity);
         }
     }
 
@@ -276,7 +276,7 @@ impl Simulation {
     /// Takes what acts where all is, as if it did not move: so what holds it is known before the first step.
     pub(super) fn weigh(&mut self) {
         let Self { assembly, settings, state, origin, work } = self;
-        work.stage.begin(state);
+        work.stage.begin(state, &[]);
         work.stage.set_up(LONG, state);
         work.poses.clone_from(&state.poses);
         for group in &mut work.groups {
@@ -341,8 +341,12 @@ impl Simulation {
             iterations += 1;
         };
         for system in &group.rods {
-            let nodes = system.first..system.first + system.record.poses.len();
-            work.poses[nodes].copy_from_slice(&system.record.poses);
+            let RodSystem { rod, first, first_element, record, .. } = system;
+            let elements = *first_element..*first_element + record.wrenches.len();
+            work.poses[*first..*first + record.poses.len()].copy_from_slice(&record.poses);
+            if assembly.strands[*rod].viscosity > 0.0 && !stage.middle {
+                stage.take_strain_rates(elements, &record.poses);
+            }
         }
         group.keep_left_over(assembly, stage, *origin);
         Ok(Taken { iterations, residual })

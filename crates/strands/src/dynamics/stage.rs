@@ -4,9 +4,7 @@ use super::State;
 use super::inertia::TakeInertia;
 use crate::assembly::Drag;
 use crate::element::DiagonalPoint;
-use crate::math::{
-    Mat3, Pose, Quat, SimdLevel, Vec3, Vec6, Wrench, dispatch, exp_coefficients, tangent_inverse,
-};
+use crate::math::{Mat3, Pose, Quat, SimdLevel, Vec3, Vec6, Wrench, dispatch, exp_coefficients};
 use crate::rod::NodeInertia;
 use crate::statics::Inertial;
 use core::ops::Range;
@@ -18,6 +16,9 @@ pub(super) struct Stage {
     pub base: Vec<Pose>,
     pub offsets: Vec<Vec6>,
     pub known_momenta: Vec<Wrench>,
+    /// The same of the exponents of viscous elements.
+    strains: Vec<Vec6>,
+    known_strains: Vec<Vec6>,
     /// Whether the frames are those in the middle of a step, and the velocities at its beginning.
     pub middle: bool,
     pub velocities_before: Vec<Vec6>,
@@ -44,10 +45,18 @@ pub(super) struct Resistance<'a> {
 }
 
 impl Stage {
-    /// Begins a step.
-    pub fn begin(&mut self, state: &State) {
+    /// Begins a step, in which some rods are viscous: their nodes and elements.
+    pub fn begin(&mut self, state: &State, viscous: &[(Range<usize>, Range<usize>)]) {
         self.base.clone_from(&state.poses);
         let (frames, elements) = (state.poses.len(), state.wrenches.len());
+        self.strains.resize(elements, Vec6::ZERO);
+        for (nodes, elements) in viscous {
+            for (strain, x) in
+                self.strains[elements.clone()].iter_mut().zip(exponents(&state.poses[nodes.clone()]))
+            {
+                *strain = x;
+            }
+        }
         let none = Inertial { exerts: Wrench::ZERO, by_turn: Mat3::ZERO, by_shift: [Mat3::ZERO; 2] };
         self.inertial.resize(frames, none);
         self.drags.clear();
@@ -66,16 +75,35 @@ impl Stage {
         self.offsets.clear();
         self.offsets.resize(state.poses.len(), Vec6::ZERO);
         self.known_momenta.clone_from(&state.momenta);
+        self.known_strains.clone_from(&self.strains);
     }
 
     /// Adds so much of earlier rates.
-    pub fn add_history(&mut self, times: f64, coordinate_rates: &[Vec6], momentum_rates: &[Wrench]) {
+    pub fn add_history(
+        &mut self,
+        times: f64,
+        coordinate_rates: &[Vec6],
+        momentum_rates: &[Wrench],
+        strain_rates: &[Vec6],
+    ) {
+        self.known_strains.iter_mut().zip(strain_rates).for_each(|(known, rate)| *known += *rate * times);
         self.offsets.iter_mut().zip(coordinate_rates).for_each(|(offset, rate)| *offset += *rate * times);
         self.known_momenta.iter_mut().zip(momentum_rates).for_each(|(known, rate)| *known += *rate * times);
     }
 
     /// For backward differences of order 2: a third of what has changed since the step before goes on.
-    pub fn look_back(&mut self, poses: &[Pose], momenta: &[Wrench]) {
+    pub fn look_back(
+        &mut self,
+        poses: &[Pose],
+        momenta: &[Wrench],
+        viscous: &[(Range<usize>, Range<usize>)],
+    ) {
+        for (nodes, elements) in viscous {
+            for (e, before) in elements.clone().zip(exponents(&poses[nodes.clone()])) {
+                let now = self.known_strains[e];
+                self.known_strains[e] += (now - before) * (1.0 / 3.0);
+            }
+        }
         for (i, base) in self.base.iter().enumerate() {
             self.offsets[i] += coordinates(base, &poses[i]) * (-1.0 / 3.0);
             let now = self.known_momenta[i];
@@ -115,31 +143,21 @@ impl Stage {
         Vec6::new(so3_tangent(theta) * rate.angular, rate.linear)
     }
 
-    /// Takes the exponents' rates into the elements' laws: with `x = x̂ + a ẋ` a viscous law is an elastic one against another rest shape, stiffer and
-    /// elsewhere. `x̂` changes with the motion, though little, and is taken anew in every iteration.
-    pub fn take_viscosity(
-        &mut self,
-        elements: Range<usize>,
-        first: usize,
-        elastic: &[DiagonalPoint],
-        viscosity: f64,
-        poses: &[Pose],
-    ) {
+    /// Takes the rates of the exponents of some viscous elements into their laws: with `x = x̂ + a ẋ` such a law is an elastic one against another rest
+    /// shape, stiffer and elsewhere. The exponents have the same history as all else that changes in time, so a motion without strain has no rate.
+    pub fn take_viscosity(&mut self, elements: Range<usize>, elastic: &[DiagonalPoint], viscosity: f64) {
         let stiffer = viscosity / self.of_rate;
-        for (e, elastic) in elastic.iter().enumerate() {
-            let relative = poses[e].between(&poses[e + 1]);
-            let twist = |node: usize| {
-                let velocity = self.velocities[first + node];
-                Vec6::new(velocity.angular, poses[node].rotation.transpose_mul(velocity.linear))
-            };
-            let x = relative.log();
-            let apart = twist(e + 1) - relative.inverse().adjoint(twist(e));
-            let rate = tangent_inverse(x).mul_vec(apart);
-            let known = x - rate * self.of_rate;
-            let point = &mut self.points[elements.start + e];
+        for (e, elastic) in elements.zip(elastic) {
+            let point = &mut self.points[e];
             point.compliance = elastic.compliance * (1.0 / (1.0 + stiffer));
-            point.rest = (elastic.rest + known * stiffer) * (1.0 / (1.0 + stiffer));
-            self.strain_rates[elements.start + e] = rate;
+            point.rest = (elastic.rest + self.known_strains[e] * stiffer) * (1.0 / (1.0 + stiffer));
+        }
+    }
+
+    /// Takes the rates of the exponents of some elements where the stage has come to.
+    pub fn take_strain_rates(&mut self, elements: Range<usize>, poses: &[Pose]) {
+        for (e, x) in elements.zip(exponents(poses)) {
+            self.strain_rates[e] = (x - self.known_strains[e]) * (1.0 / self.of_rate);
         }
     }
 
@@ -194,4 +212,9 @@ fn at_coordinates(base: &Pose, q: Vec6) -> Pose {
 pub(super) fn so3_tangent(theta: Vec3) -> Mat3 {
     let (k, hat) = (exp_coefficients(theta.dot(theta)), Mat3::hat(theta));
     Mat3::IDENTITY - hat.scaled(k.b) + (hat * hat).scaled(k.c)
+}
+
+/// The exponents between neighbouring frames.
+pub(super) fn exponents(poses: &[Pose]) -> impl Iterator<Item = Vec6> {
+    poses.windows(2).map(|pair| pair[0].between(&pair[1]).log())
 }

@@ -43,14 +43,19 @@ pub enum Past {
         /// Their momenta.
         momenta: Vec<Wrench>,
     },
-    /// The rates now and their weighted means, for the generalised-α method: of the frames (in the axes of their velocities) and of the momenta.
+    /// The rates now and their weighted means, for the generalised-α method: of the frames (in the axes of their velocities), of the momenta, and of the
+    /// exponents of viscous elements.
     Rates {
         /// What acts on each frame.
         momentum: Vec<Wrench>,
+        /// The rates of the exponents.
+        strain: Vec<Vec6>,
         /// The mean velocities.
         mean_velocity: Vec<Vec6>,
         /// The mean rates of the momenta.
         mean_momentum: Vec<Wrench>,
+        /// The mean rates of the exponents.
+        mean_strain: Vec<Vec6>,
     },
 }
 

@@ -206,7 +206,10 @@ impl Simulation {
             Integrator::Bdf2 => Past::Before { poses, momenta },
             Integrator::GeneralizedAlpha { .. } => {
                 let momentum: Vec<Wrench> = self.work.stage.momentum_rates().collect();
+                let strain = self.work.stage.strain_rates.clone();
                 Past::Rates {
+                    mean_strain: strain.clone(),
+                    strain,
                     mean_velocity: self.state.velocities.clone(),
                     mean_momentum: momentum.clone(),
                     momentum,
@@ -217,17 +220,22 @@ impl Simulation {
     }
 
     fn runge_kutta(&mut self, method: &RungeKutta, held: &Held, piece: Piece) -> Result<Taken, StepFailure> {
-        let (h, frames) = (self.work.step * piece.length, self.state.poses.len());
+        let h = self.work.step * piece.length;
+        let (frames, elements) = (self.state.poses.len(), self.state.wrenches.len());
         let (mut taken, mut lost) = (Taken::default(), Power::default());
         self.work.coordinate_rates.clear();
         self.work.momentum_rates.clear();
-        self.work.stage.begin(&self.state);
+        self.work.strain_rates.clear();
+        self.begin();
         for (number, before) in method.before.iter().enumerate() {
-            let Work { stage, coordinate_rates, momentum_rates, .. } = &mut self.work;
+            let Work { stage, coordinate_rates, momentum_rates, strain_rates, .. } = &mut self.work;
             stage.set_up(method.diagonal * h, &self.state);
-            let rates = coordinate_rates.chunks(frames).zip(momentum_rates.chunks(frames));
-            for (a, (coordinates, momenta)) in before.iter().zip(rates) {
-                stage.add_history(a * h, coordinates, momenta);
+            for (j, a) in before.iter().enumerate() {
+                let (of_frames, of_elements) =
+                    (j * frames..(j + 1) * frames, j * elements..(j + 1) * elements);
+                let (coordinates, momenta) =
+                    (&coordinate_rates[of_frames.clone()], &momentum_rates[of_frames]);
+                stage.add_history(a * h, coordinates, momenta, &strain_rates[of_elements]);
             }
             held.at(piece.begin + method.time(number) * piece.length, self);
             let Work { stage, coordinate_rates, poses, .. } = &mut self.work;
@@ -236,8 +244,9 @@ impl Simulation {
                 Some(last) => stage.predict(&coordinate_rates[last * frames..], poses),
             }
             taken.add(self.solve_stage()?);
-            let Work { stage, coordinate_rates, momentum_rates, .. } = &mut self.work;
+            let Work { stage, coordinate_rates, momentum_rates, strain_rates, .. } = &mut self.work;
             coordinate_rates.extend_from_slice(&stage.coordinate_rates);
+            strain_rates.extend_from_slice(&stage.strain_rates);
             momentum_rates.extend(stage.momentum_rates());
             self.state.power = self.power();
             lost.add(self.state.power, method.weight(number) * h);
@@ -248,11 +257,11 @@ impl Simulation {
 
     fn bdf2(&mut self, held: &Held) -> Result<Taken, StepFailure> {
         let h = self.work.step;
-        let stage = &mut self.work.stage;
-        stage.begin(&self.state);
+        self.begin();
+        let Work { stage, viscous, .. } = &mut self.work;
         stage.set_up(2.0 / 3.0 * h, &self.state);
         if let Past::Before { poses, momenta } = &self.state.past {
-            stage.look_back(poses, momenta);
+            stage.look_back(poses, momenta, viscous);
         }
         held.at(1.0, self);
         let Work { stage, poses, .. } = &mut self.work;
@@ -275,12 +284,14 @@ impl Simulation {
         let gamma = 0.5 - alpha_m + alpha_f;
         let h = self.work.step;
         let of_now = gamma / (1.0 - alpha_m);
+        self.begin();
         let stage = &mut self.work.stage;
-        stage.begin(&self.state);
         stage.set_up(of_now * (1.0 - alpha_f) * h, &self.state);
-        if let Past::Rates { momentum, mean_velocity, mean_momentum } = &self.state.past {
-            stage.add_history(h * (1.0 - gamma - of_now * alpha_m), mean_velocity, mean_momentum);
-            stage.add_history(h * of_now * alpha_f, &self.state.velocities, momentum);
+        if let Past::Rates { momentum, strain, mean_velocity, mean_momentum, mean_strain } = &self.state.past
+        {
+            let of_mean = h * (1.0 - gamma - of_now * alpha_m);
+            stage.add_history(of_mean, mean_velocity, mean_momentum, mean_strain);
+            stage.add_history(h * of_now * alpha_f, &self.state.velocities, momentum, strain);
         }
         held.at(1.0, self);
         let Work { stage, poses, .. } = &mut self.work;
@@ -291,7 +302,11 @@ impl Simulation {
         let mean = |now: Vec6, before: Vec6, mean: Vec6| {
             (now * (1.0 - alpha_f) + before * alpha_f - mean * alpha_m) * (1.0 / (1.0 - alpha_m))
         };
-        if let Past::Rates { momentum, mean_velocity, mean_momentum } = &mut state.past {
+        if let Past::Rates { momentum, strain, mean_velocity, mean_momentum, mean_strain } = &mut state.past {
+            for (e, rate) in stage.strain_rates.iter().enumerate() {
+                mean_strain[e] = mean(*rate, strain[e], mean_strain[e]);
+                strain[e] = *rate;
+            }
             for (i, rate) in stage.momentum_rates().enumerate() {
                 let velocity = mean(stage.coordinate_rates[i], state.velocities[i], mean_velocity[i]);
                 mean_velocity[i] = stage.turned_with(i, &poses[i], velocity);
@@ -301,6 +316,15 @@ impl Simulation {
         }
         self.take(lost, h);
         Ok(taken)
+    }
+
+    /// Begins a step, or a piece of it, in which viscous rods are those that are so now.
+    pub(super) fn begin(&mut self) {
+        let Self { assembly, state, work: Work { stage, viscous, .. }, .. } = self;
+        viscous.clear();
+        let rods = assembly.strands.iter().enumerate().filter(|(_, strand)| strand.viscosity > 0.0);
+        viscous.extend(rods.map(|(rod, _)| (assembly.nodes(rod), assembly.elements(rod))));
+        stage.begin(state, viscous);
     }
 
     /// The energy that goes in a step that looks at its end alone, by what went at the end of the one before.
