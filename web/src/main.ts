@@ -120,11 +120,13 @@ function setUp(first: Shape): void {
   stage.setScene(first, {
     square: rods.map(isRectangle),
     startIsHeld: rods.map((rod) => isHeld(rod, 'start', 0)),
-    endIsHeld: isHeld(rods[0], 'end', rods[0].length),
+    endIsHeld: rods.map((rod) => isHeld(rod, 'end', rod.length)),
+    tied: first.report.moves_only,
     surgical: String(scene.name ?? '').includes('suture'),
     skin: rods.length >= MANY && String(scene.name ?? '').includes('hair'),
   })
   inspector.fillView()
+  mode.allowRest(!first.report.moves_only)
   element('scene-name').textContent = spoken(scene.name ?? opened.name)
   markCurrent(element('rail'), scene.name)
 }
@@ -168,8 +170,8 @@ async function open(text: string, name: string, moves?: boolean): Promise<boolea
   mode.show(false)
   readout.clear()
   receive(reply)
-  // A scene that says how it moves is there to move.
-  if (moves ?? scene.dynamics) await setMotion(true, !matchMedia('(prefers-reduced-motion: reduce)').matches)
+  // A scene that says how it moves is there to move, and rods that are tied can do nothing else.
+  if (reply.shape.report.moves_only || (moves ?? scene.dynamics)) await setMotion(true, !matchMedia('(prefers-reduced-motion: reduce)').matches)
   return true
 }
 
@@ -278,7 +280,7 @@ function showColours(): void {
 
 /** Lets the scene move from its start, or solves for where it rests. */
 async function setMotion(moves: boolean, plays = true): Promise<void> {
-  if (!shape) return
+  if (!shape || (!moves && shape.report.moves_only)) return
   solver.forget()
   const why = moves ? await mode.begin(shape, plays) : null
   if (moves && !why) return

@@ -13,6 +13,8 @@ import { TimeBar } from './timebar'
 
 const element = <T extends HTMLElement>(id: string) => document.getElementById(id) as T
 
+const TOGGLES = element('motion').title
+
 /** What it asks of the page. */
 export interface PageEvents {
   say: (message: string | null, details?: string | null) => void
@@ -68,6 +70,13 @@ export class MotionMode {
       ? 'The scene in motion. Take hold of a thread with the pointer anywhere, or of its end with G; ? lists all gestures.'
       : 'The strand. Drag its end with the pointer, or use the arrow keys; ? lists all gestures.'
     this.page.covered()
+  }
+
+  /** Lets a person end the motion, or not: where rods are tied there is nothing else. */
+  allowRest(allowed: boolean): void {
+    const button = element<HTMLButtonElement>('motion')
+    button.disabled = !allowed
+    button.title = allowed ? TOGGLES : 'Rods that are tied move; they come to rest by themselves.'
   }
 
   /** Takes hold of a place of what moves. */

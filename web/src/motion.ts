@@ -3,7 +3,7 @@
  * keep up it gives time up, and never a frame.
  */
 
-import type { HandPose, Moved, MotionReport, MovingRod } from './protocol'
+import type { HandPose, Moved, MotionReport, MovingRod, RigidBody } from './protocol'
 import type { Solver } from './solver'
 import type { Scenery } from './stage'
 
@@ -28,6 +28,7 @@ export class Motion {
   playing = false
   speed = SPEEDS[0]
   #rods: MovingRod[] = []
+  #bodies: RigidBody[] = []
   #busy = false
   /** When time was let pass last, ms. */
   #last = 0
@@ -61,6 +62,7 @@ export class Motion {
     if (turn !== this.#turn) return null
     if (reply.kind !== 'moving') return reply.kind === 'error' ? reply.message : 'The solver does not answer.'
     this.#rods = reply.rods
+    this.#bodies = reply.bodies
     this.scenery = this.#scenery(reply.moved, Math.max(0, reply.rods.findIndex(({ name }) => name === held)))
     return this.scenery
   }
@@ -178,6 +180,7 @@ export class Motion {
         energyDensity: moved.energyDensity.subarray(e, elements),
       }
     })
-    return { rods, held, report: moved.report }
+    const bodies = { shapes: this.#bodies.map(({ shape }) => shape), frames: moved.bodies }
+    return { rods, bodies, held, report: moved.report }
   }
 }

@@ -15,7 +15,7 @@ export class Mover {
   }
 
   start(): Reply {
-    return { kind: 'moving', rods: this.#rods(), moved: this.#moved() }
+    return { kind: 'moving', rods: this.#rods(), bodies: JSON.parse(this.#motion.body_shapes()), moved: this.#moved() }
   }
 
   /** Answers what only a scene in motion can; null where it is something else. */
@@ -58,6 +58,7 @@ export class Mover {
     const elements = borne.length / 13
     return {
       frames: this.#motion.frames(),
+      bodies: this.#motion.bodies(),
       strain: borne.subarray(0, 6 * elements),
       stress: borne.subarray(6 * elements, 12 * elements),
       energyDensity: borne.subarray(12 * elements),

@@ -152,7 +152,7 @@ export class Props {
     foot.scale.z = (0.16 * scale) / height
   }
 
-  /** Puts a root where each of these threads starts, and skin under all of them where they grow out of it. */
+  /** Puts a root where each of these threads is held, by its frame, and skin under all of them where they grow out of it. */
   plant(starts: Float64Array[], skin: boolean): void {
     for (const old of this.roots.children) if (old instanceof THREE.InstancedMesh) old.dispose()
     this.roots.clear()

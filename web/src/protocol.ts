@@ -9,6 +9,8 @@ export interface Report {
   rod: string
   status: 'converged' | 'failed'
   reason: string | null
+  /** Whether joints tie the rods: they are shown where they start to move, and what holds them is not known. */
+  moves_only: boolean
   /** Whether the worker is still on its way to the hand. */
   settling: boolean
   /** Whether the thread has just snapped over to another equilibrium. */
@@ -69,6 +71,18 @@ export interface MovingRod {
   halfExtent: Float64Array
 }
 
+/** What a rigid body looks like: lengths along its third axis, edges along its axes, m. */
+export type BodyShape =
+  | { kind: 'ball'; radius: number }
+  | { kind: 'capsule' | 'cylinder'; radius: number; length: number }
+  | { kind: 'block'; size: [number, number, number] }
+
+/** A rigid body that moves. */
+export interface RigidBody {
+  name: string
+  shape: BodyShape
+}
+
 /** How a motion goes, as the solver reports it. */
 export interface MotionReport {
   /** s */
@@ -99,6 +113,8 @@ export interface MotionReport {
 /** Where all rods are at some time; every array has one rod after the other. */
 export interface Moved extends Carried {
   frames: Float64Array
+  /** The frames of the rigid bodies. */
+  bodies: Float64Array
   report: MotionReport
 }
 
@@ -130,7 +146,7 @@ export type Reply =
   | { kind: 'opened'; scene: string; coupling: number[]; shape: Shape }
   | { kind: 'shape'; shape: Shape; scene: string | null; coupling: number[] }
   | { kind: 'error'; message: string }
-  | { kind: 'moving'; rods: MovingRod[]; moved: Moved }
+  | { kind: 'moving'; rods: MovingRod[]; bodies: RigidBody[]; moved: Moved }
   | { kind: 'moved'; moved: Moved }
   | { kind: 'file'; name: string; data: string | Uint8Array }
   /** Nobody asked: the worker has come nearer to a hand that it did not reach at once. */

@@ -4,6 +4,7 @@ import * as THREE from 'three'
 import { OrbitControls } from 'three/addons/controls/OrbitControls.js'
 import { TransformControls } from 'three/addons/controls/TransformControls.js'
 import { Arrows, type Insets } from './arrows'
+import { Solids, type Bodies } from './bodies'
 import { Glyphs, type GlyphOptions } from './glyphs'
 import { Ground } from './ground'
 import { Hand } from './hand'
@@ -23,7 +24,10 @@ export interface Setting {
   square: boolean[]
   /** Which of them have their start held. */
   startIsHeld: boolean[]
-  endIsHeld: boolean
+  /** And which their end. */
+  endIsHeld: boolean[]
+  /** Whether joints tie them together. */
+  tied: boolean
   surgical: boolean
   /** Whether they grow out of skin. */
   skin: boolean
@@ -32,6 +36,7 @@ export interface Setting {
 /** All rods of a scene in motion, and which of them is the one in the hand of statics. */
 export interface Scenery {
   rods: (Body & Carried)[]
+  bodies: Bodies
   held: number
   report: MotionReport
 }
@@ -50,6 +55,7 @@ const FIRST_VIEW = new THREE.Vector3(0.35, -1.45, 0.55).normalize()
 export class Stage {
   readonly tubes = new Tubes()
   readonly hand = new Hand()
+  readonly solids = new Solids()
   readonly camera = new THREE.PerspectiveCamera(32, 1, 0.001, 50)
   readonly orbit: OrbitControls
   readonly gizmo: TransformControls
@@ -69,7 +75,7 @@ export class Stage {
   #fill = new THREE.HemisphereLight(0xe6eeff, 0xa39a8c)
   #gap = new THREE.Line(new THREE.BufferGeometry(), new THREE.LineDashedMaterial({ color: 0xd0242f }))
   #shape: Shape | null = null
-  #setting: Setting = { square: [], startIsHeld: [], endIsHeld: false, surgical: false, skin: false }
+  #setting: Setting = { square: [], startIsHeld: [], endIsHeld: [], tied: false, surgical: false, skin: false }
   /** What moves, in place of the shape. */
   #moving: Scenery | null = null
   /** What else a view of all of the scene shows. */
@@ -109,7 +115,7 @@ export class Stage {
     })
     this.#rim.position.set(0.6, 1, 0.5)
     this.#scene.add(this.#fill, this.#rim, this.#key, this.#key.target, this.#ground.group, this.tubes.mesh, this.#glyphs.lines)
-    this.#scene.add(this.#props.end, this.#props.start, this.#props.below, this.#props.clips, this.#props.roots, this.#props.hold, this.#gap, this.#arrows.group, this.gizmo.getHelper())
+    this.#scene.add(this.#props.end, this.#props.start, this.#props.below, this.#props.clips, this.#props.roots, this.#props.hold, this.solids.group, this.#gap, this.#arrows.group, this.gizmo.getHelper())
     this.#gap.visible = this.#glyphs.lines.visible = false
     this.#gap.frustumCulled = false
     // The ring of the focus is for the keyboard.
@@ -150,6 +156,7 @@ export class Stage {
     this.#floor = box.min.z - DROP * size
     this.#reach = []
     this.#clips = shape.report.between.map(({ node }) => node)
+    this.solids.choose([])
     // Of many threads each is drawn thinner, so that they stay apart.
     const thin = (LEAST_RADIUS * size) / radius / Math.max(1, all.length / 4) ** 0.25
     this.view.displayScale = thin <= 1 ? 1 : thin < 3 ? Math.ceil(thin * 2) / 2 : Math.ceil(thin)
@@ -158,14 +165,17 @@ export class Stage {
   }
 
   /** Chooses and fits the things beside the threads, that in the hand first. */
-  #furnish([held, ...others]: Strand[]): void {
-    const { square, startIsHeld, endIsHeld, surgical, skin } = this.#setting
+  #furnish(all: Strand[]): void {
+    const { square, startIsHeld, endIsHeld, tied, surgical, skin } = this.#setting
+    const [held] = all
     this.tubes.setSections(square)
-    const bundle = square.length >= MANY
-    this.#props.choose(surgical, startIsHeld[0] && !bundle, this.#moving !== null && !endIsHeld)
+    const starts = all.filter((_, i) => startIsHeld[i]).map(({ frames }) => frames)
+    const ends = all.filter((_, i) => tied && endIsHeld[i]).map(({ frames }) => frames.subarray(-12))
+    // Where many things are held alike none of them gets a clamp.
+    const bundle = tied ? starts.length + ends.length > 1 : square.length >= MANY
+    this.#props.choose(surgical, startIsHeld[0] && !bundle, this.#moving !== null && !endIsHeld[0])
     this.#props.fit(this.size, this.#radius * this.view.displayScale, new THREE.Vector3().fromArray(held.frames, 9), this.#floor)
-    const roots = [held, ...others].filter((_, i) => startIsHeld[i] && (bundle || i > 0))
-    this.#props.plant(roots.map(({ frames }) => frames), skin)
+    this.#props.plant([...(bundle || !startIsHeld[0] ? starts : starts.slice(1)), ...ends], skin)
     this.#props.countClips(this.#clips.length)
     this.gizmo.detach()
   }
@@ -180,13 +190,14 @@ export class Stage {
     const held = moving.rods[moving.held].frames
     const root = new THREE.Vector3().fromArray(held, 9)
     // What swings comes up again on the other side.
-    const swings = moving.rods.length < MANY && farthest > 0.2 * this.size && this.#setting.startIsHeld[0] && !this.#setting.endIsHeld
+    const swings = moving.rods.length < MANY && farthest > 0.2 * this.size && this.#setting.startIsHeld[0] && !this.#setting.endIsHeld[0]
     const others = swings ? starts.map((at) => new THREE.Vector3(2 * root.x - at.x, 2 * root.y - at.y, Math.min(at.z, root.z))) : []
-    this.#reach = [...rests, ...starts, ...others]
+    this.#reach = [...rests, ...starts, ...others, ...places([{ frames: moving.bodies.frames, halfExtent: moving.bodies.frames }])]
     const box = new THREE.Box3().setFromPoints(this.#reach)
-    const least = this.#setting.endIsHeld ? box.min.z : Math.min(box.min.z, root.z - length(held))
+    const least = this.#setting.endIsHeld[0] || this.#setting.tied ? box.min.z : Math.min(box.min.z, root.z - length(held))
     this.#floor = least - DROP * this.size
     this.#furnish(this.#ordered(moving))
+    this.solids.choose(moving.bodies.shapes)
     this.#lookAt(this.#reach, FIRST_VIEW)
   }
 
@@ -221,6 +232,7 @@ export class Stage {
     const held = moving.rods[moving.held]
     this.tubes.update(this.#ordered(moving), this.view, true)
     this.#place(held)
+    this.solids.put(moving.bodies.frames)
     const { grabbed } = moving.report
     const at = new THREE.Vector3()
     if (grabbed) at.fromArray(moving.rods[grabbed.rod].frames, 12 * grabbed.node + 9)

@@ -98,6 +98,12 @@ export async function done(page) {
   for (let i = 0; i < 3; i++) await page.evaluate(() => window.strands.solver.ask({ kind: 'csv' }))
 }
 
+/** The names of the scenes of the rail that rest by themselves: those whose rods no joints tie. */
+export async function resting(page) {
+  const { scenes } = await page.evaluate(() => window.strands.solver.ask({ kind: 'bundled' }))
+  return scenes.filter(({ text }) => !/^(joints\b|\[\[joints\]\])/m.test(text)).map(({ name }) => name)
+}
+
 /** Opens a scene of the rail, and stops it where it moves by itself. */
 export async function openScene(page, name) {
   await page.locator(`#rail button[data-name=${name}]`).click()

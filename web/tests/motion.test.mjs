@@ -2,7 +2,7 @@
 
 import assert from 'node:assert/strict'
 import { after, before, test } from 'node:test'
-import { badge, done, openPage, openScene, openText, out, sharedPage, start, text, type, until } from './browser.mjs'
+import { badge, done, openPage, openScene, openText, out, resting, sharedPage, start, text, type, until } from './browser.mjs'
 
 let context
 const fresh = sharedPage(() => context)
@@ -156,9 +156,9 @@ test('slow motion runs at the part of real time that is asked for, by button and
   assert.deepEqual(complaints, [])
 })
 
-test('every scene moves and rests again, and what it was at rest comes back', async () => {
+test('every scene that rests moves and rests again, and what it was at rest comes back', async () => {
   const { page, complaints } = await fresh()
-  for (const name of await page.locator('#rail button').evaluateAll((all) => all.map((one) => one.dataset.name))) {
+  for (const name of await resting(page)) {
     await openScene(page, name)
     const csv = () => page.evaluate(() => window.strands.solver.ask({ kind: 'csv' }).then((reply) => reply.data))
     const before = await csv()
@@ -194,6 +194,80 @@ test('fifty hairs are drawn as one mesh; how long that takes is printed', async 
   await page.screenshot({ path: `${out}tuft.png` })
   const fallen = await state(page)
   assert.ok(place(fallen, 7, 20)[2] < place(first, 7, 20)[2])
+  assert.deepEqual(complaints, [])
+})
+
+test('rods that are tied open in motion, move, and have nothing else', async () => {
+  const { page, complaints } = await fresh()
+  const first = await openMoving(page, 'willow')
+  assert.equal(first.frames.length, 21)
+  assert.ok(await page.locator('#motion').isDisabled())
+  assert.equal(await page.locator('#motion').getAttribute('title'), 'Rods that are tied move; they come to rest by themselves.')
+  await page.locator('#stage').focus()
+  await page.keyboard.press('m')
+  await done(page)
+  assert.ok(await page.locator('#time-bar').isVisible())
+  await page.locator('#play').click()
+  await passes(page, 0.4)
+  await page.locator('#play').click()
+  await done(page)
+  const blown = await state(page)
+  const top = (one) => place(one, 0, 22)
+  assert.ok(top(blown)[0] > top(first)[0] + 0.01, `the wind blows its top from ${top(first)} to ${top(blown)}`)
+  await page.screenshot({ path: `${out}willow.png` })
+  console.log(`willow: ${blown.report.step_ms.toFixed(2)} ms for a step of ${1e3 * blown.report.time_step} ms`)
+  assert.deepEqual(complaints, [])
+})
+
+test('a net hangs, and what is pulled of it comes along', async () => {
+  const { page, complaints } = await fresh()
+  const first = await openMoving(page, 'hanging_net')
+  assert.equal(first.frames.length, 8)
+  assert.ok(place(first, 1, 6)[2] < -0.01, 'its middle hangs below its corners')
+  const [x, y] = await page.evaluate(() => window.strands.stage.nodeOnPage({ rod: 1, node: 6 }))
+  await page.mouse.move(x, y)
+  await page.mouse.down()
+  await done(page)
+  const { grabbed } = (await state(page)).report
+  assert.ok(grabbed)
+  await page.locator('#stage').focus()
+  await page.keyboard.press(' ')
+  await page.mouse.move(x, y - 25, { steps: 5 })
+  await passes(page, 0.3)
+  const lifted = await state(page)
+  await page.screenshot({ path: `${out}net.png` })
+  await page.mouse.up()
+  const rise = (rod, node) => place(lifted, rod, node)[2] - place(first, rod, node)[2]
+  assert.ok(rise(grabbed.rod, grabbed.node) > 0.01, JSON.stringify(grabbed))
+  assert.ok(apart(place(lifted, 1, 4), place(lifted, 5, 4)) < 1e-6, 'the knots hold')
+  assert.deepEqual(complaints, [])
+})
+
+test('bodies are drawn where they are, in their shapes', async () => {
+  const { page, complaints } = await fresh()
+  const bodies = () =>
+    page.evaluate(() => window.strands.stage.solids.group.children.map(({ geometry, position }) => ({ kind: geometry.type, radius: geometry.parameters.radius, at: position.toArray() })))
+  await openMoving(page, 'spiders_ring')
+  const [before] = await bodies()
+  assert.deepEqual([before.kind, before.radius], ['SphereGeometry', 6e-3])
+  await page.locator('#play').click()
+  await passes(page, 0.1)
+  await page.locator('#play').click()
+  await done(page)
+  const [after] = await bodies()
+  assert.ok(after.at[2] < before.at[2] - 1e-4, `${before.at} ${after.at}`)
+  // A spoke ends at the spider.
+  const moved = await state(page)
+  assert.ok(apart(moved.frames[1].slice(-3), after.at) < 0.01)
+  await page.screenshot({ path: `${out}spider.png` })
+  await openMoving(page, 'needle_and_thread')
+  assert.equal((await bodies()).length, 1)
+  await page.locator('#play').click()
+  await passes(page, 0.5)
+  await page.screenshot({ path: `${out}needle.png` })
+  await openScene(page, 'suture')
+  assert.equal((await bodies()).length, 0)
+  assert.ok(await page.locator('#motion').isEnabled())
   assert.deepEqual(complaints, [])
 })
 

@@ -33,6 +33,10 @@ const SCENES: &[Bundled] = &[
     scene!("swinging_rope", "A rope that falls and swings"),
     scene!("whip", "A whip that is raised and let fall"),
     scene!("hair_tuft", "Fifty hairs that fall and sway"),
+    scene!("willow", "A young willow in the wind"),
+    scene!("hanging_net", "A net that hangs by its corners"),
+    scene!("spiders_ring", "A spider on its web"),
+    scene!("needle_and_thread", "A needle that hangs on its thread"),
 ];
 
 /// All bundled scenes.

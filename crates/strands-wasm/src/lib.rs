@@ -182,7 +182,7 @@ impl Session {
     }
 
     /// How the last solve went, as JSON: `rod` (the name of the held one), `status`, `reason`, `method`, `iterations`, `residual`, `sweeps`, `path_steps`, `morse_index`, `energy`,
-    /// `saturated`, `settling` (whether there is more to do), `snapped` (whether the thread has just snapped over to another equilibrium), `mode`, `beyond` (how far the hand is out of reach, m), the reactions `start` and `end`,
+    /// `saturated`, `moves_only` (whether joints tie the rods: they are shown where they start to move, and what holds them is not known), `settling` (whether there is more to do), `snapped` (whether the thread has just snapped over to another equilibrium), `mode`, `beyond` (how far the hand is out of reach, m), the reactions `start` and `end`,
     /// each `{ force, moment }` in world axes, and the same of the supports `between` them, with the `node` that each holds.
     pub fn report(&self) -> String {
         self.state.report()

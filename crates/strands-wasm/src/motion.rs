@@ -3,6 +3,7 @@
 //! [`Motion`] stands beside [`Session`](crate::Session). The page says how much time has passed, and gets back as many steps as that makes and as
 //! its budget allows. What it draws lies between the last two steps, so that slow motion is smooth.
 
+mod bodies;
 mod grab;
 mod pace;
 mod rods;
@@ -10,9 +11,11 @@ mod rods;
 use crate::numbers::flat;
 use grab::Grab;
 use pace::Pace;
-use rods::{Borne, Rods};
+use rods::Borne;
 use strands::math::{Pose, Quat, Vec3};
 use wasm_bindgen::prelude::*;
+
+pub use rods::Rods;
 
 #[wasm_bindgen]
 unsafe extern "C" {
@@ -41,6 +44,12 @@ impl Motion {
     /// The rods as JSON: `[{ name, nodes }, …]`. All flat arrays hold one rod after the other in this order.
     pub fn rods(&self) -> String {
         self.moving.rods.named().to_string()
+    }
+
+    /// What the bodies look like, as JSON: `[{ name, shape }, …]`. A shape is of the `kind` `ball`, `capsule` or `cylinder`, with its `radius` and, of the
+    /// last two, the `length` along the third axis, or a `block` with its `size`, the edges along its axes, m. A body that has none is a ball of 2,000 kg/m³.
+    pub fn body_shapes(&self) -> String {
+        self.moving.bodies.to_string()
     }
 
     /// Half extents along `d1` and `d2` at each node, m.
@@ -92,6 +101,11 @@ impl Motion {
         flat(&self.moving.shown())
     }
 
+    /// The frames of the bodies at that time, in the same way, in the order of [`body_shapes`](Motion::body_shapes).
+    pub fn bodies(&self) -> Vec<f64> {
+        flat(&self.moving.shown_bodies())
+    }
+
     /// What the elements of all rods bear, body frame: first their strains, six numbers each, then moments and forces, six numbers each, and last their
     /// elastic energy per length, J/m.
     pub fn borne(&self) -> Vec<f64> {
@@ -111,6 +125,8 @@ impl Motion {
 /// What is behind [`Motion`].
 struct Moving {
     rods: Rods,
+    /// What the bodies look like.
+    bodies: serde_json::Value,
     grab: Option<Grab>,
     pace: Pace,
     failure: Option<String>,
@@ -119,7 +135,8 @@ struct Moving {
 impl Moving {
     fn open(text: &str, file_name: &str) -> Result<Self, String> {
         let model = crate::session::read(text, file_name)?.model;
-        Ok(Self { rods: Rods::of(&model)?, grab: None, pace: Pace::default(), failure: None })
+        let bodies = bodies::drawn(&model);
+        Ok(Self { rods: Rods::of(&model)?, bodies, grab: None, pace: Pace::default(), failure: None })
     }
 
     fn advance(&mut self, seconds: f64, budget: f64, clock: impl Fn() -> f64) -> bool {
@@ -190,6 +207,10 @@ impl Moving {
 
     fn shown(&self) -> Vec<Pose> {
         self.rods.between(self.pace.part(self.rods.time_step()))
+    }
+
+    fn shown_bodies(&self) -> Vec<Pose> {
+        self.rods.bodies_between(self.pace.part(self.rods.time_step()))
     }
 
     fn report(&self) -> String {

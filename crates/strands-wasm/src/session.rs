@@ -5,9 +5,12 @@ use strands::math::{Pose, Quat, Strain, Wrench};
 use strands::statics::{
     Guess, Problem, Reaction, Solution, SolveReport, Support, Workspace, recall, rest_from, solve,
 };
-use strands_scene::{CouplingFile, FixName, HandFile, Model, ModelRod, Place, Scene, SceneFile, SupportFile};
+use strands_scene::{
+    CouplingFile, FixName, HandFile, Model, ModelRod, Place, Scene, SceneFile, SupportFile, Tied,
+};
 
 use crate::hand::{HandMode, coupling_for, reachable};
+use crate::motion::Rods;
 use crate::numbers::{coupling_numbers, flat, hand_from, unflat, vector};
 use crate::settle::{Bit, LARGEST_TURN, Start, Way, is_stable, largest_turn, search};
 use crate::snap::{Motion, is_far, is_small};
@@ -49,7 +52,8 @@ impl State {
         let rod = &scene.model.rods[held];
         let hand = tip(&solutions[held]);
         let coupling = rod.hand.unwrap_or_else(|| coupling_for(rod));
-        let mode = if rod.problem.end.fixed == [true; 6] { HandMode::Pose } else { HandMode::Scene };
+        let leads = rod.problem.end.fixed == [true; 6] && scene.model.each_alone().is_ok();
+        let mode = if leads { HandMode::Pose } else { HandMode::Scene };
         let outcome = Outcome { report: solutions[held].report.clone(), reason: None, saturated: false };
         let home = Some(Start::new(&solutions[held], hand, false));
         Ok(Self {
@@ -78,20 +82,12 @@ impl State {
     }
 
     fn put(&mut self, scene: Scene, guess: Option<Guess>) -> Result<(), String> {
-        let mut solutions = Vec::with_capacity(scene.model.rods.len());
         // A text that went through the page may have its rods in another order.
         let held = scene.model.rods.iter().position(|rod| rod.name == self.rod().name).unwrap_or(0);
-        for (i, rod) in scene.model.rods.iter().enumerate() {
-            let mut problem = rod.problem.clone();
-            let guess = if i == held { guess } else { None };
-            if i == held {
-                problem.end = self.end(rod, 0.0);
-            }
-            match solve(&problem, &scene.model.settings, guess.as_ref(), &mut self.workspace) {
-                Ok(solution) => solutions.push(solution),
-                Err(failure) => return Err(format!("rod `{}`: {failure}", rod.name)),
-            }
-        }
+        let solutions = match scene.model.each_alone() {
+            Ok(()) => self.solve_anew(&scene.model, held, guess)?,
+            Err(Tied) => solve_all(&scene.model, &mut self.workspace)?,
+        };
         self.held = held;
         self.scene = scene;
         self.solutions = solutions;
@@ -101,6 +97,26 @@ impl State {
         let report = self.solution().report.clone();
         self.reached(report);
         Ok(())
+    }
+
+    /// Solves all rods, one of which the hand holds.
+    fn solve_anew(
+        &mut self,
+        model: &Model,
+        held: usize,
+        guess: Option<Guess>,
+    ) -> Result<Vec<Solution>, String> {
+        let mut solutions = Vec::with_capacity(model.rods.len());
+        for (i, rod) in model.rods.iter().enumerate() {
+            let mut problem = rod.problem.clone();
+            let guess = if i == held { guess } else { None };
+            if i == held {
+                problem.end = self.end(rod, 0.0);
+            }
+            let solved = solve(&problem, &model.settings, guess.as_ref(), &mut self.workspace);
+            solutions.push(solved.map_err(|failure| format!("rod `{}`: {failure}", rod.name))?);
+        }
+        Ok(solutions)
     }
 
     /// What [`restore`](State::restore) needs beside the scene's text: the hand, the coupling, and where the search starts.
@@ -134,8 +150,13 @@ impl State {
     /// Changes how the hand holds on. A spring takes hold where it does what has held the thread so far, so that nothing moves.
     ///
     /// # Errors
-    /// Where the spring is so soft that there is no such place; the mode is then as it was.
+    /// Where the spring is so soft that there is no such place, and where joints tie the rods; the mode is then as it was.
     pub fn set_mode(&mut self, mode: HandMode) -> Result<(), String> {
+        if self.moves_only() {
+            return Err(
+                "joints tie the rods of this scene: let it move, and take hold of them there".to_owned()
+            );
+        }
         if mode == HandMode::Coupling && self.mode != mode {
             let (held, reaction) = (tip(self.solution()), *self.solution().end_reaction());
             let by_turn = reaction.moment * (1.0 / self.coupling.angular_stiffness);
@@ -169,6 +190,11 @@ impl State {
         self.scene.model.rods[self.held].hand = Some(self.coupling);
         self.scene.file.coupling = Some(CouplingFile { hand });
         Ok(())
+    }
+
+    /// Whether joints tie its rods, so that they come to rest by moving alone, and the shapes are those that they start to move from.
+    pub fn moves_only(&self) -> bool {
+        self.scene.model.each_alone().is_err()
     }
 
     pub fn file(&self) -> &SceneFile {
@@ -216,6 +242,10 @@ impl State {
     /// Solves the held rod for where the hand is, with one search from the last shape. Where its branch ends or loses its stability, the thread
     /// is let move on to where it rests. Where that is not enough, [`settle`](State::settle) goes on. Without a hand that leads nobody waits for the next frame, and the thread comes to rest as one that starts from rest.
     pub fn solve(&mut self, time_step: f64) -> bool {
+        // They stay where they are shown.
+        if self.moves_only() {
+            return true;
+        }
         let mut problem = self.rod().problem.clone();
         problem.end = self.end(self.rod(), time_step);
         let whole = self.scene.model.settings;
@@ -417,6 +447,7 @@ impl State {
             "rod": self.rod().name,
             "status": if reason.is_none() { "converged" } else { "failed" },
             "reason": reason,
+            "moves_only": self.moves_only(),
             "settling": self.way.is_some(),
             "snapped": self.snapped,
             "mode": self.mode.name(),
@@ -445,11 +476,18 @@ fn checked(hand: &HandFile) -> Result<VirtualCoupling, String> {
 
 pub fn read(text: &str, file_name: &str) -> Result<Scene, String> {
     let mut scene = Scene::parse(text, file_name, None).map_err(|error| error.to_string())?;
-    scene.model = scene.model.refined().map_err(|error| error.to_string())?;
+    // A tolerance needs where each rod rests.
+    if scene.model.each_alone().is_ok() {
+        scene.model = scene.model.refined().map_err(|error| error.to_string())?;
+    }
     Ok(scene)
 }
 
+/// Where each rod rests; rods that are tied are where they start to move.
 fn solve_all(model: &Model, workspace: &mut Workspace) -> Result<Vec<Solution>, String> {
+    if model.each_alone().is_err() {
+        return Ok(Rods::of(model)?.shapes());
+    }
     let solved = model.rods.iter().map(|rod| {
         solve(&rod.problem, &model.settings, None, workspace)
             .map_err(|failure| format!("rod `{}`: {failure}", rod.name))

@@ -1,10 +1,11 @@
 //! The rods of a scene in motion: the one place that speaks to [`strands::dynamics`].
 
-use strands::assembly::Member;
+use std::slice::SliceIndex;
+use strands::assembly::{Member, Strand};
 use strands::coupling::Grip;
 use strands::dynamics::{Budget, Settings, Simulation, Start, Step};
-use strands::math::{Pose, Quat, Vec3};
-use strands::statics::{Problem, Support};
+use strands::math::{Pose, Quat, Vec3, Wrench};
+use strands::statics::{Energy, Guess, Problem, Reaction, Solution, SolveReport, Support};
 use strands_scene::{DynamicsFile, Model};
 
 /// The residual at which a step is solved. What is over `EI/L²` is far less than any rod here weighs, and no eye sees it.
@@ -104,12 +105,52 @@ impl Rods {
 
     /// The frames of all nodes so far on the way from before the last step to now.
     pub fn between(&self, part: f64) -> Vec<Pose> {
-        let nodes = ..self.simulation.assembly().first_body();
-        let now = &self.simulation.state().poses[nodes];
+        let first = self.simulation.assembly().first_body();
+        self.on_the_way(..first, part)
+    }
+
+    /// The bodies' frames so far on the way from before the last step to now.
+    pub fn bodies_between(&self, part: f64) -> Vec<Pose> {
+        let first = self.simulation.assembly().first_body();
+        self.on_the_way(first.., part)
+    }
+
+    fn on_the_way(&self, frames: impl SliceIndex<[Pose], Output = [Pose]> + Clone, part: f64) -> Vec<Pose> {
+        let now = &self.simulation.state().poses[frames.clone()];
         if part >= 1.0 {
             return now.to_vec();
         }
-        self.before[nodes].iter().zip(now).map(|(from, to)| on_the_way(from, to, part)).collect()
+        self.before[frames].iter().zip(now).map(|(from, to)| on_the_way(from, to, part)).collect()
+    }
+
+    /// The rods as they are now, as shapes of a [`Session`](crate::Session). What holds them and what energy they have is not known of each alone, and is
+    /// given as nothing.
+    pub fn shapes(&self) -> Vec<Solution> {
+        let (assembly, state) = (self.simulation.assembly(), self.simulation.state());
+        let shape = |(number, strand): (usize, &Strand)| {
+            let problem = &strand.problem;
+            let poses = state.poses[assembly.nodes(number)].to_vec();
+            let wrenches = &state.wrenches[assembly.elements(number)];
+            let (strain, stress) = problem.rod.strains_and_stresses(&poses, wrenches);
+            let last = problem.rod.elements();
+            let between = problem.between.iter().map(|(node, _)| *node);
+            let held = std::iter::once(0).chain(between).chain([last]);
+            let unknown = |node: usize| Reaction {
+                s: problem.rod.mesh().nodes()[node],
+                force: Vec3::ZERO,
+                moment: Vec3::ZERO,
+            };
+            Solution {
+                strain,
+                stress,
+                reactions: held.map(unknown).collect(),
+                energy: Energy::default(),
+                guess: Guess::new(poses[last], Wrench::ZERO),
+                report: SolveReport::default(),
+                poses,
+            }
+        };
+        assembly.strands.iter().enumerate().map(shape).collect()
     }
 
     /// What all elements bear.

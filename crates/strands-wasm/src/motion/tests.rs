@@ -163,7 +163,7 @@ fn every_bundled_scene_moves() {
 
 #[test]
 fn the_scenes_that_open_in_motion_move_for_seconds() {
-    for name in ["swinging_rope", "whip", "hair_tuft"] {
+    for name in ["swinging_rope", "whip", "hair_tuft", "needle_and_thread"] {
         let mut moving = opened(name);
         let first = moving.shown();
         assert!(moving.advance(3.0, f64::INFINITY, still), "{name}: {}", moving.report());
@@ -192,4 +192,44 @@ fn what_a_scene_asks_for_and_there_is_not_is_said() {
     assert!(said("start = \"tomorrow\"").contains("neither"));
     let massless = ROPE.replace("mass_per_length = 0.02", "mass_per_length = 0.0");
     assert!(Moving::open(&massless, "rope.toml").err().unwrap().contains("mass"));
+}
+
+#[test]
+fn bodies_have_shapes_and_move_with_what_ties_them() {
+    let mut web = opened("spiders_ring");
+    assert_eq!(web.bodies[0]["name"], "spider");
+    assert_eq!(web.bodies[0]["shape"], serde_json::json!({ "kind": "ball", "radius": 6e-3 }));
+    let start = web.shown_bodies()[0].position;
+    assert!(web.advance(0.2, f64::INFINITY, still), "{}", web.report());
+    let hangs = web.shown_bodies()[0].position;
+    assert!(hangs.z < start.z - 1e-4, "{start:?} {hangs:?}");
+    // Its spokes end where it is.
+    let ends = web.rods.problem(1).unwrap().rod.elements();
+    assert!((web.rods.pose(1, ends).position - hangs).norm() < 1e-2);
+
+    // A ball of the needle's mass stands for the needle.
+    let needle = opened("needle_and_thread");
+    let radius = needle.bodies[0]["shape"]["radius"].as_f64().unwrap();
+    assert!((4.0 / 3.0 * std::f64::consts::PI * radius.powi(3) * 2000.0 - 57.708e-6).abs() < 1e-12);
+}
+
+#[test]
+fn a_knot_of_a_net_is_grabbed_and_pulled_up() {
+    let mut net = opened("hanging_net");
+    // Where the second ropes of both directions cross: a joint holds the node of the one at that of the other.
+    let (along, across) = ((1, 4), (5, 4));
+    let knot = |net: &Moving, (rod, node): (usize, usize)| net.rods.pose(rod, node).position;
+    assert!((knot(&net, along) - knot(&net, across)).norm() < 1e-9);
+    for (rod, node) in [along, across] {
+        net.rewind();
+        let start = net.rods.pose(rod, node);
+        net.grab(rod, node);
+        net.pull(Pose { position: start.position + Vec3::new(0.0, 0.0, 0.03), ..start });
+        assert!(net.advance(0.5, f64::INFINITY, still), "{}", net.report());
+        let lifted = knot(&net, (rod, node)).z - start.position.z;
+        assert!(lifted > 0.02, "rod {rod}: lifted by {lifted} m");
+        assert!((knot(&net, along) - knot(&net, across)).norm() < 1e-6);
+        net.release();
+        assert!(net.advance(0.1, f64::INFINITY, still), "{}", net.report());
+    }
 }

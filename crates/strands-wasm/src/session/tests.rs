@@ -315,3 +315,28 @@ fn the_end_of_a_cable_that_is_held_between_can_be_dragged() {
     assert_eq!(report["between"].as_array().unwrap().len(), 5);
     assert_eq!(report["between"][0]["node"], 35);
 }
+
+#[test]
+fn rods_that_are_tied_are_shown_where_they_start_to_move() {
+    for name in ["willow", "hanging_net", "spiders_ring", "needle_and_thread"] {
+        let scene = strands_scene::bundled_scene(name).unwrap();
+        let mut state = State::open(scene.text, "scene.toml").unwrap();
+        assert!(state.moves_only());
+        let report: serde_json::Value = serde_json::from_str(&state.report()).unwrap();
+        assert_eq!((&report["moves_only"], &report["status"]), (&true.into(), &"converged".into()), "{name}");
+        let opened = state.frames();
+        // A hand has nothing to hold there.
+        state.hand.position += Vec3::new(0.1, 0.0, 0.0);
+        assert!(state.solve(0.0) && !state.settle());
+        assert!(state.set_mode(HandMode::Pose).unwrap_err().contains("let it move"));
+        assert_eq!(state.frames(), opened);
+        // Through the page and back.
+        let json = state.file().to_json();
+        state.replace(&json, "scene.json").unwrap();
+        assert_eq!(state.frames(), opened, "{name}");
+        let snapshot = state.snapshot();
+        state.restore(&json, HandMode::Scene, &snapshot).unwrap();
+        assert_eq!(state.frames(), opened, "{name}");
+    }
+    assert!(!suture().moves_only());
+}
