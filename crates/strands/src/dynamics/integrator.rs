@@ -27,7 +27,7 @@ pub enum Integrator {
     /// The midpoint rule, of order 2, so that energy and momentum are kept to the tolerance: nothing that is faster than the steps dies away. For rods
     /// without bodies and hinges, and turns of less than half a circle a step.
     Midpoint,
-    /// A singly diagonally implicit Runge–Kutta method of order 4 with five stages, L-stable.
+    /// A singly diagonally implicit Runge–Kutta method of order 4 with five stages, L-stable. Of order 2 for viscous rods, and where supports move.
     Sdirk4,
 }
 
