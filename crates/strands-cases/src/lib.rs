@@ -21,6 +21,8 @@
 //!
 //! [`bank`] has rods drawn at random, to find what a solver cannot do.
 //!
+//! A [`VibrationCase`] has rods that vibrate a little, with their frequencies; [`Vibration`] measures them.
+//!
 //! [`falling`] is a wire that swings under its weight, of which the motion is known.
 //!
 //! [`wild`] has problems that nobody would pose, to find what breaks a solver.
@@ -35,6 +37,7 @@ mod columns;
 mod critical;
 mod expected;
 pub mod falling;
+mod frequencies;
 mod heavy;
 mod lateral;
 pub mod net;
@@ -47,13 +50,16 @@ pub mod swinging;
 mod table;
 mod three_points;
 mod tip_wrench;
+mod vibration;
 pub mod wild;
 pub mod workloads;
 
 pub use case::{Answer, Case, CaseError, Outcome, Row, Start};
 pub use critical::{Branch, CriticalCase, CriticalLoad, Family};
 pub use expected::{Comparison, Expected, Quantity, Value};
+pub use frequencies::{VibrationCase, VibrationRow, all_vibrations};
 pub use setup::{Setup, Tip};
+pub use vibration::{Vibration, VibrationError};
 
 /// Every case.
 pub fn all() -> Vec<Case> {
