@@ -128,7 +128,7 @@ impl Vibration {
             // Twice is enough.
             for vector in basis.iter().chain(&basis) {
                 let along = self.product(&next, vector);
-                next.iter_mut().zip(vector).for_each(|(v, of)| *v = *v - *of * along);
+                next.iter_mut().zip(vector).for_each(|(v, of)| *v -= *of * along);
             }
             let mut values = largest(&diagonal, &beside, 2 * count + 6);
             values.retain(|value| *value < 1.0 - MOVES_ON);

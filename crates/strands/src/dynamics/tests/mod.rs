@@ -90,7 +90,11 @@ fn integrators_have_their_order() {
         ] {
             let error = |steps: usize| after(integrator, steps).between(&exact).log().max_abs();
             let measured = (error(steps) / error(4 * steps)).log2() / 2.0;
-            assert!(measured > order - 0.2 && measured < order + 0.4, "{}, {viscous} s: {measured}", integrator.name());
+            assert!(
+                measured > order - 0.2 && measured < order + 0.4,
+                "{}, {viscous} s: {measured}",
+                integrator.name()
+            );
         }
     }
 }
