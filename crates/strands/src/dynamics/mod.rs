@@ -1,7 +1,7 @@
-//! Motion: a rod with inertia, step by step in time.
+//! Motion: rods, bodies and the joints between them, step by step in time.
 //!
-//! The nodes and elements are those of [`statics`], and so is the linear system: a [`Simulation`] solves for frames and wrenches at
-//! once, so a step may be as long as the motion that is looked for allows, however stiff the rod is against stretching. Inertia is lumped at the nodes.
+//! The nodes and elements are those of [`statics`](crate::statics), and so is the linear system: a [`Simulation`] solves for frames and wrenches at
+//! once, so a step may be as long as the motion that is looked for allows, however stiff the rods are against stretching. Inertia is lumped at the nodes.
 //! Nothing is damped but by what is asked for, and by the [`Integrator`] where its documentation says so.
 
 mod energy;
