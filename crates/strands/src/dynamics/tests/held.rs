@@ -202,3 +202,23 @@ fn no_load_no_motion() {
     simulation.advance(0.01).unwrap();
     assert_eq!(simulation.state().poses, rest);
 }
+
+#[test]
+fn viscosity_does_not_resist_a_turn_without_strain() {
+    // A tenth of a radian a step, and as stiff against it as a rate of strain that is not there would make it.
+    let strand = Strand { viscosity: 0.01, ..free(Problem::cantilever(suture(10))).into() };
+    let spin = Vec3::new(0.0, 100.0, 0.0);
+    for integrator in [Integrator::Bdf2, Integrator::Midpoint, Integrator::Sdirk4] {
+        let settings = Settings { integrator, time_step: 1e-3, ..Settings::default() };
+        let mut simulation = Simulation::new(strand.clone(), settings, Start::Rest).unwrap();
+        let middle = Vec3::Z * 0.05;
+        let velocities: Vec<_> = (simulation.state().poses.iter())
+            .map(|pose| crate::math::Vec6::new(spin, spin.cross(pose.position - middle)))
+            .collect();
+        simulation.set_velocities(&velocities);
+        let began = simulation.energy().kinetic;
+        simulation.advance(0.2).unwrap();
+        let dissipated = simulation.energy().dissipated / began;
+        assert!(dissipated < 1e-3, "{}: {dissipated:e}", integrator.name());
+    }
+}
