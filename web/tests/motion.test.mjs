@@ -101,7 +101,7 @@ test('a place in the middle is grabbed, dragged, and flies on when it is let go'
   const dragged = await state(page)
   const [from, to] = [first, dragged].map((one) => place(one, 0, grabbed.node))
   assert.ok(to[2] - from[2] > 0.05, `dragged up from ${from} to ${to}`)
-  assert.ok(place(dragged, 0, 60)[2] < from[2], 'the rest hangs down')
+  assert.ok(place(dragged, 0, 60)[2] < to[2], 'the rest is below the hand')
   assert.ok(await page.locator('.label.force:visible').count(), 'the force of the hand is shown')
   await page.screenshot({ path: `${out}grabbed.png` })
   await page.mouse.up()
