@@ -21,9 +21,12 @@
 //!
 //! [`bank`] has rods drawn at random, to find what a solver cannot do.
 //!
-//! A [`VibrationCase`] has rods that vibrate a little, with their frequencies; [`Vibration`] measures them.
+//! A [`VibrationCase`] has rods that vibrate a little, with their frequencies; [`Vibration`] measures them. A [`MotionCase`]
+//! is a rod that moves far.
 //!
 //! [`falling`] is a wire that swings under its weight, of which the motion is known.
+//!
+//! [`turning`] has rods that turn steadily or nearly as rigid bodies do, and a column that a following force makes flutter.
 //!
 //! [`wild`] has problems that nobody would pose, to find what breaks a solver.
 //!
@@ -40,6 +43,7 @@ pub mod falling;
 mod frequencies;
 mod heavy;
 mod lateral;
+mod motions;
 pub mod net;
 mod planar;
 mod pose;
@@ -50,6 +54,7 @@ pub mod swinging;
 mod table;
 mod three_points;
 mod tip_wrench;
+pub mod turning;
 mod vibration;
 pub mod wild;
 pub mod workloads;
@@ -58,6 +63,7 @@ pub use case::{Answer, Case, CaseError, Outcome, Row, Start};
 pub use critical::{Branch, CriticalCase, CriticalLoad, Family};
 pub use expected::{Comparison, Expected, Quantity, Value};
 pub use frequencies::{VibrationCase, VibrationRow, all_vibrations};
+pub use motions::{Moment, MotionCase, all_motions};
 pub use setup::{Setup, Tip};
 pub use vibration::{Vibration, VibrationError};
 
