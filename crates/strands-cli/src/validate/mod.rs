@@ -7,6 +7,7 @@ mod line;
 mod plot;
 mod report;
 mod table;
+mod vibrations;
 
 use std::io::{IsTerminal, Write, stderr};
 use std::panic::resume_unwind;
@@ -27,7 +28,7 @@ struct Entry {
 
 /// All that can be validated, in the order in which it is printed. Problems of another kind are one more list of entries here.
 fn catalogue() -> Vec<Entry> {
-    cases::entries().into_iter().chain(critical::entries()).collect()
+    [cases::entries(), critical::entries(), vibrations::entries()].into_iter().flatten().collect()
 }
 
 /// What a run found.
