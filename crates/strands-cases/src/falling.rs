@@ -3,43 +3,33 @@
 
 use core::f64::consts::PI;
 
-use strands::load::NodalLoads;
-use strands::math::{Pose, Vec3};
-use strands::rod::{
-    Kinematics, Material, Order, Profile, RestShape, Rod, RodDescription, RodError, Section, Station,
-};
+use crate::swinging::{GRAVITY, Swinging};
+use strands::rod::{RodError, Section};
 use strands::statics::Problem;
 
-const LENGTH: f64 = 0.5;
 const RADIUS: f64 = 1e-3;
-const YOUNGS_MODULUS: f64 = 200e9;
-const DENSITY: f64 = 8000.0;
-const GRAVITY: f64 = 9.81;
+const WIRE: Swinging = Swinging {
+    name: "steel wire",
+    length: 0.5,
+    section: Section::Circle { radius: RADIUS },
+    youngs_modulus: 200e9,
+    shear_modulus: 80e9,
+    density: 8000.0,
+};
 /// Its `EI` over its mass per length, m⁴/s².
-const STIFFNESS_OVER_MASS: f64 = YOUNGS_MODULUS * RADIUS * RADIUS / (4.0 * DENSITY);
+const STIFFNESS_OVER_MASS: f64 = WIRE.youngs_modulus * RADIUS * RADIUS / (4.0 * WIRE.density);
 
 /// The wire along z, its weight along x.
 ///
 /// # Errors
 /// Where there are no elements.
 pub fn problem(elements: usize) -> Result<Problem, RodError> {
-    let material = Material::from_poisson(YOUNGS_MODULUS, 0.25, DENSITY)?;
-    let section = Section::Circle { radius: RADIUS };
-    let description = RodDescription {
-        length: LENGTH,
-        kinematics: Kinematics::Cosserat,
-        profile: Profile::Stations(vec![Station { s: 0.0, section, material }]),
-        rest: RestShape::default(),
-        base: Pose::IDENTITY,
-    };
-    let rod = Rod::with_elements(description, elements, &[], Order::Second)?;
-    let loads = NodalLoads::none(&rod).with_gravity(&rod, Vec3::X * GRAVITY);
-    Ok(Problem { loads, ..Problem::cantilever(rod) })
+    WIRE.problem(elements)
 }
 
 /// How far its tip sinks at rest, as a beam of Euler's and Bernoulli's, m.
 pub fn sag() -> f64 {
-    GRAVITY * LENGTH.powi(4) / (8.0 * STIFFNESS_OVER_MASS)
+    GRAVITY * WIRE.length.powi(4) / (8.0 * STIFFNESS_OVER_MASS)
 }
 
 /// How far it has sunk after a time (s), over that, by the first twelve modes of such a beam.
@@ -52,7 +42,7 @@ pub fn sunk(time: f64) -> f64 {
         }
         let mean = 2.0 * (x.cosh() + x.cos()) / (x.sinh() + x.sin()) / x;
         let tip = if mode % 2 == 1 { 2.0 } else { -2.0 };
-        let omega = STIFFNESS_OVER_MASS.sqrt() * (x / LENGTH).powi(2);
+        let omega = STIFFNESS_OVER_MASS.sqrt() * (x / WIRE.length).powi(2);
         8.0 * tip * mean / x.powi(4) * (1.0 - (omega * time).cos())
     });
     modes.sum()

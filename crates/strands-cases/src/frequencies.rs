@@ -1,15 +1,14 @@
 //! Rods and rings that vibrate a little, with their frequencies.
 
 use crate::table::Table;
+use crate::uniform::Uniform;
 use crate::vibration::{Vibration, VibrationError};
 use core::f64::consts::{PI, TAU};
 use std::sync::Arc;
 use strands::assembly::{Assembly, Body, Joint, JointKind, Member};
 use strands::load::NodalLoads;
 use strands::math::{Pose, Vec3, Vec6};
-use strands::rod::{
-    Kinematics, Law, NodeInertia, Order, Profile, RestShape, Rod, RodDescription, RodError, Stiffness,
-};
+use strands::rod::{NodeInertia, RodError};
 use strands::statics::{Problem, Support};
 
 /// A named rod that vibrates.
@@ -113,61 +112,15 @@ const ALONG_Y: Vec6 = Vec6::new(Vec3::ZERO, Vec3::Y);
 const ALONG_Z: Vec6 = Vec6::new(Vec3::ZERO, Vec3::Z);
 const TWIST: Vec6 = Vec6::new(Vec3::Z, Vec3::ZERO);
 
-/// A straight rod along z.
-#[derive(Clone, Copy)]
-struct Straight {
-    length: f64,
-    kinematics: Kinematics,
-    stiffness: Stiffness,
-    mass: f64,
-    inertia: Vec3,
+/// One that bends and twists only, and turns without inertia but about itself, which nothing else may keep it from.
+fn slender_rod(length: f64, bending: [f64; 2], mass: f64) -> Uniform {
+    Uniform::inextensible(length, bending, mass, Vec3::Z * (1e-9 * mass * length * length))
 }
 
-impl Straight {
-    /// One that bends and twists only, and turns without inertia but about itself, which nothing else may keep it from.
-    fn slender(length: f64, bending: [f64; 2], mass: f64) -> Self {
-        let stiffness = Stiffness { bending, torsion: bending[0], axial: 1.0, shear: [1.0; 2] };
-        let inertia = Vec3::Z * (1e-9 * mass * length * length);
-        Self { length, kinematics: Kinematics::Kirchhoff, stiffness, mass, inertia }
-    }
-
-    /// A round one, of a shear factor of 1.
-    fn round(length: f64, radius: f64, [young, shear]: [f64; 2], density: f64) -> Self {
-        let area = PI * radius * radius;
-        let second = 0.25 * area * radius * radius;
-        let stiffness = Stiffness {
-            bending: [young * second; 2],
-            torsion: 2.0 * shear * second,
-            axial: young * area,
-            shear: [shear * area; 2],
-        };
-        Self {
-            length,
-            kinematics: Kinematics::Cosserat,
-            stiffness,
-            mass: density * area,
-            inertia: Vec3::new(second, second, 2.0 * second) * density,
-        }
-    }
-
-    fn rod(&self, elements: usize, rest: Vec3) -> Result<Rod, RodError> {
-        let description = RodDescription {
-            length: self.length,
-            kinematics: self.kinematics,
-            profile: Profile::Given {
-                law: Law::Diagonal(self.stiffness),
-                mass_per_length: self.mass,
-                rotational_inertia_per_length: self.inertia,
-                half_extent: [0.01 * self.length; 2],
-            },
-            rest: RestShape::Constant(rest),
-            base: Pose::IDENTITY,
-        };
-        Rod::with_elements(description, elements, &[], Order::Second)
-    }
-
+/// Straight, along z.
+impl Uniform {
     fn held(&self, elements: usize, [start, end]: [Hold; 2]) -> Result<Problem, RodError> {
-        let rod = self.rod(elements, Vec3::ZERO)?;
+        let rod = self.rod(Pose::IDENTITY, Vec3::ZERO, elements)?;
         let far = Pose { position: Vec3::Z * self.length, ..Pose::IDENTITY };
         let (start, end) = (start.support(Pose::IDENTITY), end.support(far));
         Ok(Problem { start, end, ..Problem::cantilever(rod) })
@@ -223,7 +176,7 @@ fn slender() -> VibrationCase {
     const LENGTH: f64 = 0.6;
     const BENDING: [f64; 2] = [0.00128, 0.00288];
     const MASS: f64 = 0.1152;
-    let rod = Straight::slender(LENGTH, BENDING, MASS);
+    let rod = slender_rod(LENGTH, BENDING, MASS);
     let row = |label, roots: &[f64], plane: usize, holds| {
         let wave_speed = (BENDING[plane] / MASS).sqrt();
         let frequencies = roots.iter().map(|root| (root / LENGTH).powi(2) * wave_speed).collect();
@@ -264,7 +217,7 @@ fn shearing() -> VibrationCase {
         // So that `EI` and the mass per length are 1.
         let young = 1.0 / second;
         let density = 1.0 / (PI * radius * radius);
-        let rod = Straight::round(1.0, radius, [young, young / (2.0 * (1.0 + poisson))], density);
+        let rod = Uniform::round(1.0, radius, [young, young / (2.0 * (1.0 + poisson))], density);
         let label = format!("L/r = {slenderness}");
         VibrationRow::new(label, figures(&record), ALONG_X, rod.between([Hold::Clamped, Hold::Free]))
     });
@@ -290,8 +243,8 @@ struct Round {
 }
 
 impl Round {
-    fn rod(&self) -> Straight {
-        Straight::round(self.length, self.radius, self.moduli, self.density)
+    fn rod(&self) -> Uniform {
+        Uniform::round(self.length, self.radius, self.moduli, self.density)
     }
 
     /// The speeds of waves over its length, 1/s: axial and torsional.
@@ -367,9 +320,9 @@ fn rings() -> VibrationCase {
         let ratio = record.figure("ratio");
         let build = move |elements: usize| {
             // Of radius 1, in the plane of x and z.
-            let mut rod = Straight::slender(TAU, [1.0; 2], 1.0);
+            let mut rod = slender_rod(TAU, [1.0; 2], 1.0);
             rod.stiffness.torsion = 1.0 / ratio.unwrap_or(1.0);
-            let rod = rod.rod(elements, Vec3::Y)?;
+            let rod = rod.rod(Pose::IDENTITY, Vec3::Y, elements)?;
             let start = Support::free(Pose::IDENTITY);
             let mut assembly = Assembly::from(Problem { start, ..Problem::cantilever(rod) });
             let members = [0, elements].map(|node| Member::Node { rod: 0, node });
@@ -401,7 +354,7 @@ fn hanging() -> VibrationCase {
     let table = Table::read(include_str!("../data/hanging_frequencies.csv"));
     let rows = table.records().map(|record| {
         let (stiffness, top) = (record.number("stiffness"), record.text("top"));
-        let rod = Straight::slender(1.0, [stiffness.max(CHAIN); 2], 1.0);
+        let rod = slender_rod(1.0, [stiffness.max(CHAIN); 2], 1.0);
         let hold = if top == "pinned" { Hold::Pinned } else { Hold::Clamped };
         let build = move |elements: usize| {
             let problem = rod.held(elements, [hold, Hold::Free])?;
@@ -427,7 +380,7 @@ fn dispersion() -> VibrationCase {
     let table = Table::read(include_str!("../data/dispersion.csv"));
     let rows = table.records().flat_map(|record| {
         let wave_number = record.number("wave_number");
-        let rod = Straight::round(PI / wave_number, 1.0, MODULI, 1.0);
+        let rod = Uniform::round(PI / wave_number, 1.0, MODULI, 1.0);
         let of = move |kind: &str, frequencies: Vec<f64>, push, holds| VibrationRow {
             along: Along::Sine,
             ..VibrationRow::new(format!("{kind}, k r = {wave_number}"), frequencies, push, rod.between(holds))

@@ -55,6 +55,7 @@ mod table;
 mod three_points;
 mod tip_wrench;
 pub mod turning;
+mod uniform;
 mod vibration;
 pub mod wild;
 pub mod workloads;

@@ -7,6 +7,9 @@ use strands::rod::{
 };
 use strands::statics::Problem;
 
+/// m/s².
+pub(crate) const GRAVITY: f64 = 9.81;
+
 /// A rod that swings.
 #[derive(Clone, Copy, Debug)]
 pub struct Swinging {
@@ -16,9 +19,9 @@ pub struct Swinging {
     pub length: f64,
     /// Its section.
     pub section: Section,
-    youngs_modulus: f64,
-    shear_modulus: f64,
-    density: f64,
+    pub(crate) youngs_modulus: f64,
+    pub(crate) shear_modulus: f64,
+    pub(crate) density: f64,
 }
 
 /// A suture of 100 mm × 0.2 mm radius, 750 MPa, 1,300 kg/m³.
@@ -80,7 +83,7 @@ impl Swinging {
             base: Pose::IDENTITY,
         };
         let rod = Rod::with_elements(description, elements, &[], Order::Second)?;
-        let loads = NodalLoads::none(&rod).with_gravity(&rod, Vec3::X * 9.81);
+        let loads = NodalLoads::none(&rod).with_gravity(&rod, Vec3::X * GRAVITY);
         Ok(Problem { loads, ..Problem::cantilever(rod) })
     }
 

@@ -1,10 +1,11 @@
 //! Slender rods that turn steadily, or nearly as rigid bodies do, and a column that a following force makes flutter.
 
 use crate::table::Table;
+use crate::uniform::Uniform;
 use strands::assembly::{Assembly, Keyframes, Member};
 use strands::load::{Frame, NodalLoads, PointLoad};
 use strands::math::{Mat3, Pose, Quat, Vec3, Wrench};
-use strands::rod::{Kinematics, Law, Order, Profile, RestShape, Rod, RodDescription, RodError, Stiffness};
+use strands::rod::{Kinematics, Rod, RodError, Stiffness};
 use strands::statics::{Problem, Support};
 
 /// A straight rod of length, mass per length and, where it can bend at all, bending stiffness 1, its turns nearly without inertia, that neither
@@ -13,32 +14,7 @@ use strands::statics::{Problem, Support};
 /// # Errors
 /// Where there are no elements.
 fn unit_rod(bending: f64, base: Pose, elements: usize) -> Result<Rod, RodError> {
-    let stiffness = Stiffness { bending: [bending; 2], torsion: bending, axial: 1.0, shear: [1.0; 2] };
-    given(1.0, Kinematics::Kirchhoff, stiffness, 1.0, Vec3::Z * 1e-9, base, elements)
-}
-
-fn given(
-    length: f64,
-    kinematics: Kinematics,
-    stiffness: Stiffness,
-    mass: f64,
-    inertia: Vec3,
-    base: Pose,
-    elements: usize,
-) -> Result<Rod, RodError> {
-    let description = RodDescription {
-        length,
-        kinematics,
-        profile: Profile::Given {
-            law: Law::Diagonal(stiffness),
-            mass_per_length: mass,
-            rotational_inertia_per_length: inertia,
-            half_extent: [0.01 * length; 2],
-        },
-        rest: RestShape::default(),
-        base,
-    };
-    Rod::with_elements(description, elements, &[], Order::Second)
+    Uniform::inextensible(1.0, [bending; 2], 1.0, Vec3::Z * 1e-9).rod(base, Vec3::ZERO, elements)
 }
 
 /// Along x, with the first direction along y and the second along z, turned by an angle about z.
@@ -143,7 +119,8 @@ impl Whirled {
     pub fn problem(&self, elements: usize) -> Result<Problem, RodError> {
         let stiffness = Stiffness { bending: [14e3; 2], torsion: 10e3, axial: self.axial, shear: [10e6; 2] };
         let (base, inertia) = (along_x_turned(0.0), Vec3::new(6e-4, 6e-4, 12e-4));
-        let rod = given(self.length, Kinematics::Cosserat, stiffness, Self::MASS, inertia, base, elements)?;
+        let (length, mass, kinematics) = (self.length, Self::MASS, Kinematics::Cosserat);
+        let rod = Uniform { length, kinematics, stiffness, mass, inertia }.rod(base, Vec3::ZERO, elements)?;
         Ok(Problem { start: Support::pinned(base), ..Problem::cantilever(rod) })
     }
 
@@ -186,8 +163,8 @@ pub fn pendulum(angle: f64, elements: usize) -> Result<Problem, RodError> {
 /// # Errors
 /// Where there are no elements.
 pub fn top(inertia: Vec3, elements: usize) -> Result<Problem, RodError> {
-    let stiffness = Stiffness { bending: [STIFF; 2], torsion: STIFF, axial: 1.0, shear: [1.0; 2] };
-    let rod = given(1.0, Kinematics::Kirchhoff, stiffness, 1.0, inertia, Pose::IDENTITY, elements)?;
+    let rod = Uniform::inextensible(1.0, [STIFF; 2], 1.0, inertia);
+    let rod = rod.rod(Pose::IDENTITY, Vec3::ZERO, elements)?;
     Ok(Problem { start: Support::free(Pose::IDENTITY), ..Problem::cantilever(rod) })
 }
 

@@ -1,7 +1,7 @@
 //! States of simulations as files, from which they go on to the same bits.
 
 use serde::{Deserialize, Serialize};
-use strands::dynamics::{Past, Power, State};
+use strands::dynamics::{Means, Past, Power, State};
 use strands::math::{Mat3, Pose, Vec3, Vec6};
 use thiserror::Error;
 
@@ -39,17 +39,16 @@ struct Written {
 #[serde(rename_all = "snake_case", deny_unknown_fields)]
 enum WrittenPast {
     None,
-    Before {
-        poses: Row<12>,
-        momenta: Row<6>,
-    },
-    Rates {
-        momentum: Row<6>,
-        strain: Row<6>,
-        mean_velocity: Row<6>,
-        mean_momentum: Row<6>,
-        mean_strain: Row<6>,
-    },
+    Before { poses: Row<12>, momenta: Row<6> },
+    Rates { momentum: Row<6>, strain: Row<6>, means: Option<WrittenMeans> },
+}
+
+#[derive(Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+struct WrittenMeans {
+    velocity: Row<6>,
+    momentum: Row<6>,
+    strain: Row<6>,
 }
 
 /// The state as a file's text.
@@ -70,15 +69,15 @@ pub fn state_json(state: &State) -> String {
             Past::Before { poses, momenta } => {
                 WrittenPast::Before { poses: poses_out(poses), momenta: sixes_out(momenta) }
             }
-            Past::Rates { momentum, strain, mean_velocity, mean_momentum, mean_strain } => {
-                WrittenPast::Rates {
-                    momentum: sixes_out(momentum),
-                    strain: sixes_out(strain),
-                    mean_strain: sixes_out(mean_strain),
-                    mean_velocity: sixes_out(mean_velocity),
-                    mean_momentum: sixes_out(mean_momentum),
-                }
-            }
+            Past::Rates { momentum, strain, means } => WrittenPast::Rates {
+                momentum: sixes_out(momentum),
+                strain: sixes_out(strain),
+                means: means.as_ref().map(|means| WrittenMeans {
+                    velocity: sixes_out(&means.velocity),
+                    momentum: sixes_out(&means.momentum),
+                    strain: sixes_out(&means.strain),
+                }),
+            },
         },
     };
     serde_json::to_string(&written).unwrap_or_else(|error| unreachable!("numbers have a form: {error}"))
@@ -109,15 +108,15 @@ pub fn read_state(text: &str) -> Result<State, StateError> {
             WrittenPast::Before { poses, momenta } => {
                 Past::Before { poses: poses_in(&poses), momenta: sixes_in(&momenta) }
             }
-            WrittenPast::Rates { momentum, strain, mean_velocity, mean_momentum, mean_strain } => {
-                Past::Rates {
-                    momentum: sixes_in(&momentum),
-                    strain: sixes_in(&strain),
-                    mean_strain: sixes_in(&mean_strain),
-                    mean_velocity: sixes_in(&mean_velocity),
-                    mean_momentum: sixes_in(&mean_momentum),
-                }
-            }
+            WrittenPast::Rates { momentum, strain, means } => Past::Rates {
+                momentum: sixes_in(&momentum),
+                strain: sixes_in(&strain),
+                means: means.map(|means| Means {
+                    velocity: sixes_in(&means.velocity),
+                    momentum: sixes_in(&means.momentum),
+                    strain: sixes_in(&means.strain),
+                }),
+            },
         },
     })
 }

@@ -123,12 +123,9 @@ fn started(model: &Model, plan: &Plan) -> Result<Simulation, Failure> {
             );
         }
     }
-    let mut simulation = Simulation::new(model.assembly(), plan.settings, plan.start.clone())
-        .map_err(|error| Failure::bad(with_names(model, &error)))?;
-    if let (Start::Rest, Some(velocities)) = (&plan.start, model.velocities()) {
-        simulation.set_velocities(&velocities);
-    }
-    Ok(simulation)
+    model
+        .simulation(plan.settings, plan.start.clone())
+        .map_err(|error| Failure::bad(with_names(model, &error)))
 }
 
 /// An error with the rod's name in place of its number.
@@ -144,13 +141,10 @@ fn with_names(model: &Model, error: &SimulationError) -> String {
 fn stepped(model: &Model, plan: &Plan, simulation: &mut Simulation, bar: &ProgressBar) -> Run {
     let mut run =
         Run { frames: vec![frame(model, simulation, 0, 0.0)], steps: 0, end: End::Finished, seconds: 0.0 };
-    // Nearer to a time than this, it has come.
-    let near = if plan.settings.local_error.is_some() { 1e-6 } else { 0.5 } * plan.settings.time_step;
     let (mut iterations, mut residual): (usize, f64) = (0, 0.0);
-    let has_come = |simulation: &Simulation, time: f64| simulation.state().time > time - near;
     let start = simulation.state().time;
     let end = start + plan.seconds;
-    while !has_come(simulation, end) && run.end == End::Finished {
+    while !simulation.has_come_to(end) && run.end == End::Finished {
         let due = (start + run.frames.len() as f64 * plan.every).min(end);
         let began = Instant::now();
         let step = match simulation.step_towards(due) {
@@ -165,11 +159,11 @@ fn stepped(model: &Model, plan: &Plan, simulation: &mut Simulation, bar: &Progre
         iterations += step.iterations;
         residual = residual.max(step.residual);
         bar.set_position(((step.time - start) / plan.seconds * progress::WHOLE as f64) as u64);
-        if interrupt::asked() && !has_come(simulation, end) {
+        if interrupt::asked() && !simulation.has_come_to(end) {
             run.end = End::Interrupted;
         }
         // The frame that is nearest to its time, and the last.
-        if has_come(simulation, due) || run.end == End::Interrupted {
+        if simulation.has_come_to(due) || run.end == End::Interrupted {
             run.frames.push(frame(model, simulation, iterations, residual));
             (iterations, residual) = (0, 0.0);
         }

@@ -65,17 +65,7 @@ fn unsolved(case: &Case, row: &Row, error: &CaseError) -> Line {
 
 /// A line of a row before anything is known.
 fn blank(case: &Case, row: &Row) -> Line {
-    Line {
-        case: case.name.clone(),
-        title: case.title.clone(),
-        source: case.source.to_owned(),
-        label: row.label.clone(),
-        quantity: String::new(),
-        expected: String::new(),
-        got: String::new(),
-        error: f64::INFINITY,
-        tolerance: case.tolerance,
-    }
+    Line { label: row.label.clone(), ..Line::blank(&case.name, &case.title, case.source, case.tolerance) }
 }
 
 /// What was found; of the two quaternions of an orientation, the one next to the reference.

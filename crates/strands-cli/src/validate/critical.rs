@@ -80,15 +80,9 @@ fn at_load(
 /// A line of a branch before anything is known.
 fn blank(case: &CriticalCase, branch: &Branch) -> Line {
     Line {
-        case: case.name.clone(),
-        title: case.title.clone(),
-        source: case.source.to_owned(),
         label: branch.label.clone(),
         quantity: "critical load".into(),
-        expected: String::new(),
-        got: String::new(),
-        error: f64::INFINITY,
-        tolerance: case.tolerance,
+        ..Line::blank(&case.name, &case.title, case.source, case.tolerance)
     }
 }
 

@@ -24,6 +24,13 @@ pub struct Line {
 }
 
 impl Line {
+    /// A line of a case before anything is known.
+    pub fn blank(case: &str, title: &str, source: &str, tolerance: f64) -> Self {
+        let [label, quantity, expected, got] = [const { String::new() }; 4];
+        let [case, title, source] = [case, title, source].map(str::to_owned);
+        Self { case, title, source, label, quantity, expected, got, error: f64::INFINITY, tolerance }
+    }
+
     /// Whether the error is within the tolerance. One that is not a number is not.
     pub fn ok(&self) -> bool {
         self.error <= self.tolerance

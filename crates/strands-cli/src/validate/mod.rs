@@ -4,6 +4,7 @@ mod cases;
 mod convergence;
 mod critical;
 mod line;
+mod motions;
 mod plot;
 mod report;
 mod table;
@@ -28,7 +29,10 @@ struct Entry {
 
 /// All that can be validated, in the order in which it is printed. Problems of another kind are one more list of entries here.
 fn catalogue() -> Vec<Entry> {
-    [cases::entries(), critical::entries(), vibrations::entries()].into_iter().flatten().collect()
+    [cases::entries(), critical::entries(), vibrations::entries(), motions::entries()]
+        .into_iter()
+        .flatten()
+        .collect()
 }
 
 /// What a run found.

@@ -40,15 +40,9 @@ fn compared(case: &VibrationCase, row: &VibrationRow) -> Vec<Line> {
 /// A line of a row before anything is known.
 fn blank(case: &VibrationCase, row: &VibrationRow) -> Line {
     Line {
-        case: case.name.into(),
-        title: case.title.into(),
-        source: case.source.into(),
         label: row.label.clone(),
         quantity: "frequencies".into(),
-        expected: String::new(),
-        got: String::new(),
-        error: f64::INFINITY,
-        tolerance: case.tolerance,
+        ..Line::blank(case.name, case.title, case.source, case.tolerance)
     }
 }
 

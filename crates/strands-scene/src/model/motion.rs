@@ -3,7 +3,7 @@
 use super::{Model, ModelBody, ModelRod};
 use crate::file::IntegratorName;
 use strands::assembly::{Assembly, JointKind, Keyframes, Member, Strand};
-use strands::dynamics::{self, Integrator};
+use strands::dynamics::{self, Integrator, Simulation, SimulationError, Start};
 use strands::math::{Vec3, Vec6};
 
 /// What generalised-α leaves after a step of a motion that is much faster, where the scene does not say it.
@@ -24,6 +24,23 @@ impl Model {
             moving: rods.chain(bodies).collect(),
             wind: self.wind,
         }
+    }
+
+    /// Where all starts. From rest it sets off as the scene says.
+    ///
+    /// # Errors
+    /// As [`Simulation::new`].
+    pub fn simulation(
+        &self,
+        settings: dynamics::Settings,
+        start: Start,
+    ) -> Result<Simulation, SimulationError> {
+        let sets_off = if matches!(start, Start::Rest) { self.velocities() } else { None };
+        let mut simulation = Simulation::new(self.assembly(), settings, start)?;
+        if let Some(velocities) = sets_off {
+            simulation.set_velocities(&velocities);
+        }
+        Ok(simulation)
     }
 
     /// How steps are made. What the scene does not say is as in [`dynamics::Settings::default`]; steps that are chosen by their error are no longer than
@@ -56,7 +73,7 @@ impl Model {
     }
 
     /// How all frames of the [`assembly`](Self::assembly) set off where the motion starts from rest, for
-    /// [`set_velocities`](dynamics::Simulation::set_velocities): bodies as they say, rods at rest but for the nodes that joints tie to such a body.
+    /// [`set_velocities`](Simulation::set_velocities): bodies as they say, rods at rest but for the nodes that joints tie to such a body.
     /// `None` where nothing sets off.
     pub fn velocities(&self) -> Option<Vec<Vec6>> {
         let still = |body: &ModelBody| body.velocity == Vec3::ZERO && body.angular_velocity == Vec3::ZERO;

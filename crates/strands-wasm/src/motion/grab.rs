@@ -3,7 +3,7 @@
 //! Where nothing held the node firmly the spring only holds its place, and the node can turn. Where something did, the hand has taken that over: it
 //! holds turns too, and on release the node is held as before where it has been brought to.
 
-use super::rods::{Rods, on_the_way};
+use super::rods::Rods;
 use strands::coupling::{Grip, VirtualCoupling};
 use strands::math::{Pose, Vec3};
 use strands::statics::{Problem, Support};
@@ -58,7 +58,7 @@ impl Grab {
             * (1.0 / ((1.0 + rate) * (1.0 + rate)));
         let position = within(held.position, LEASH * self.length, hand.position + velocity * time_step);
         self.velocity = (position - hand.position) * (1.0 / time_step);
-        let turned = on_the_way(&hand, &self.target, 1.0 - (-rate).exp());
+        let turned = hand.towards(&self.target, 1.0 - (-rate).exp());
         grip.hand = Pose { position, ..turned };
     }
 

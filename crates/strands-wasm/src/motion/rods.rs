@@ -4,7 +4,7 @@ use std::slice::SliceIndex;
 use strands::assembly::{Member, Strand};
 use strands::coupling::Grip;
 use strands::dynamics::{Budget, Settings, Simulation, Start, Step};
-use strands::math::{Pose, Quat, Vec3, Wrench};
+use strands::math::{Pose, Vec3, Wrench};
 use strands::statics::{Energy, Guess, Problem, Reaction, Solution, SolveReport, Support};
 use strands_scene::{DynamicsFile, Model};
 
@@ -40,12 +40,7 @@ impl Rods {
     pub fn of(model: &Model) -> Result<Self, String> {
         let settings = Settings { tolerance: TOLERANCE, ..model.motion() };
         let start = start(&model.dynamics)?;
-        let sets_off = if matches!(start, Start::Rest) { model.velocities() } else { None };
-        let mut simulation =
-            Simulation::new(model.assembly(), settings, start).map_err(|error| error.to_string())?;
-        if let Some(velocities) = sets_off {
-            simulation.set_velocities(&velocities);
-        }
+        let simulation = model.simulation(settings, start).map_err(|error| error.to_string())?;
         let names = model.rods.iter().map(|rod| rod.name.clone()).collect();
         let before = simulation.state().poses.clone();
         Ok(Self { names, start: simulation.clone(), simulation, before, last: AT_REST })
@@ -120,7 +115,7 @@ impl Rods {
         if part >= 1.0 {
             return now.to_vec();
         }
-        self.before[frames].iter().zip(now).map(|(from, to)| on_the_way(from, to, part)).collect()
+        self.before[frames].iter().zip(now).map(|(from, to)| from.towards(to, part)).collect()
     }
 
     /// The rods as they are now, as shapes of a [`Session`](crate::Session). What holds them and what energy they have is not known of each alone, and is
@@ -200,8 +195,7 @@ impl Rods {
 
     /// The grip of a node that a hand holds, to move the hand: it is there at the end of the next step.
     pub fn grip_mut(&mut self, rod: usize, node: usize) -> Option<&mut Grip> {
-        let member = Member::Node { rod, node };
-        self.simulation.assembly_mut().support_mut(member).and_then(|support| support.grip.as_mut())
+        self.simulation.support_mut(Member::Node { rod, node }).and_then(|support| support.grip.as_mut())
     }
 
     pub fn grip(&self, rod: usize, node: usize) -> Option<&Grip> {
@@ -218,10 +212,4 @@ fn start(dynamics: &DynamicsFile) -> Result<Start, String> {
         "rest" => Ok(Start::Rest),
         file => Err(format!("dynamics.start: the page cannot read {file}; give \"equilibrium\" or \"rest\"")),
     }
-}
-
-/// A frame on the straight way between two, turned on the shorter one.
-pub fn on_the_way(from: &Pose, to: &Pose, part: f64) -> Pose {
-    let turn = Quat::from_rotation_vector(from.rotation.turn_to(&to.rotation) * part).to_matrix();
-    Pose { rotation: from.rotation * turn, position: from.position + (to.position - from.position) * part }
 }

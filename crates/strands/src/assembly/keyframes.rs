@@ -1,7 +1,7 @@
 //! Supports that move as is written beforehand.
 
 use super::Member;
-use crate::math::{Pose, part_of_the_way};
+use crate::math::Pose;
 
 /// Where a support is over time: at its keyframes there, between them along a straight line and by the shortest turn, before the first and after the
 /// last at rest.
@@ -21,6 +21,6 @@ impl Keyframes {
             return self.frames[0].1;
         };
         let Some((ends, to)) = self.frames.get(after) else { return from };
-        part_of_the_way(&from, to, (time - began) / (ends - began))
+        from.towards(to, (time - began) / (ends - began))
     }
 }

@@ -4,7 +4,7 @@
 //! stiffness, so the strand sees the wrench of a coupling, and the hand feels its opposite. Force and torque saturate at the device's
 //! limits: beyond, the hand moves on and the wrench keeps its size and turns with the pull.
 
-use crate::math::{Mat3, Pose, Vec3, Vec6, Wrench, tangent_inverse};
+use crate::math::{Mat3, Pose, Vec3, Wrench, so3_tangent_inverse};
 
 /// The coupling's parameters.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -66,12 +66,12 @@ impl Grip {
         let (moment, force) = self.unlimited(held);
         let rate = self.last.map_or(0.0, |last| 1.0 / last.time_step);
         // ψ = log(R_hand Rᵀ) and R → R exp(δθ): exp(ψ) → exp(ψ) exp(−R δθ).
-        let slope = |psi: Vec3| tangent_inverse(Vec6::new(psi, Vec3::ZERO)).blocks[0][0] * held.rotation;
+        let slope = |psi: Vec3| so3_tangent_inverse(psi) * held.rotation;
         let mut by_turn = slope(turn_between(held, &self.hand)).scaled(-c.angular_stiffness);
         if let Some(last) = &self.last {
             // log(R Rₗᵀ) grows with a left turn: exp(ψ) → exp(R δθ) exp(ψ), the transpose of the tangent above.
             let psi = turn_between(&last.held, held);
-            let left = tangent_inverse(Vec6::new(psi, Vec3::ZERO)).blocks[0][0].transpose() * held.rotation;
+            let left = so3_tangent_inverse(psi).transpose() * held.rotation;
             by_turn = by_turn - left.scaled(c.angular_damping * rate);
         }
         let by_shift = Mat3::IDENTITY.scaled(-(c.linear_stiffness + c.linear_damping * rate));

@@ -2,6 +2,7 @@
 
 use super::*;
 use crate::load::NodalLoads;
+use crate::math::Vec6;
 use crate::rod::{Kinematics, Law, Order, Profile, RestShape, Rod, RodDescription, Stiffness};
 use crate::statics::{Guess, Problem, Settings, SolveReport, Support, Workspace, follow, solve};
 use proptest::prelude::*;

@@ -4,7 +4,7 @@ use super::newton::RodSystem;
 use super::{Simulation, about};
 use crate::assembly::Member;
 use crate::math::{Pose, Vec3, Vec6, Wrench};
-use crate::rod::NodeInertia;
+use crate::rod::{NodeInertia, exponents};
 use crate::statics::Support;
 
 /// The energy of an assembly, J.
@@ -60,8 +60,8 @@ impl Simulation {
         for (rod, strand) in self.assembly.strands.iter().enumerate() {
             let poses = &state.poses[self.assembly.nodes(rod)];
             let points = strand.problem.rod.diagonal_points().unwrap_or_default();
-            for (pair, point) in poses.windows(2).zip(points) {
-                let strain = pair[0].between(&pair[1]).log() - point.rest;
+            for (x, point) in exponents(poses).zip(points) {
+                let strain = x - point.rest;
                 elastic += 0.5 * squares_over(&strain.to_array(), &point.compliance.to_array());
             }
             load += strand.problem.loads.energy(poses);
@@ -94,7 +94,7 @@ impl Simulation {
 
     fn reaction_at(&self, frame: usize, place: Vec3) -> Wrench {
         for group in &self.work.groups {
-            if let Some(left) = group.left_over(frame, &self.assembly) {
+            if let Some(left) = group.left_over(frame) {
                 let held = left * -1.0;
                 return Wrench::new(held.angular - place.cross(held.linear), held.linear);
             }

@@ -18,7 +18,10 @@ pub enum StepFailure {
         history: Vec<f64>,
     },
     /// A pivot vanished, or a frame is not finite.
-    #[error("at {time} s a step of {step} s led nowhere: residuals {}", written(history))]
+    #[error(
+        "at {time} s a step of {step} s led nowhere: residuals {}; what nothing keeps from turning needs inertia about every axis",
+        written(history)
+    )]
     Singular {
         /// When, s.
         time: f64,
@@ -27,6 +30,15 @@ pub enum StepFailure {
         /// The residuals until then.
         history: Vec<f64>,
     },
+}
+
+impl StepFailure {
+    /// The same of a longer step, which began before.
+    pub(super) fn in_step(mut self, began: f64, seconds: f64) -> Self {
+        let (Self::NotConverged { time, step, .. } | Self::Singular { time, step, .. }) = &mut self;
+        (*time, *step) = (began, seconds);
+        self
+    }
 }
 
 fn written(history: &[f64]) -> String {

@@ -6,12 +6,15 @@
 use super::Simulation;
 use crate::assembly::{Assembly, Member};
 use crate::coupling::LastFrame;
-use crate::math::{Pose, part_of_the_way};
+use crate::math::Pose;
 use crate::statics::{Support, meet};
 
 /// A support that moves during a step, and the frame it holds.
 struct Moving {
     member: Member,
+    frame: usize,
+    /// Which keyframes say where it is.
+    planned: Option<usize>,
     /// Where it is at the step's end.
     target: Pose,
     /// Where the frame is at the beginning, and where it has to be at the end.
@@ -49,7 +52,8 @@ impl Held {
                 Hand { target: grip.hand, before }
             });
             if hand.is_some() || pose.between(&to).log().max_abs() > 0.0 {
-                moving.push(Moving { member, target: support.pose, from: pose, to, hand });
+                let planned = assembly.moving.iter().position(|keyframes| keyframes.member == member);
+                moving.push(Moving { member, frame, planned, target: support.pose, from: pose, to, hand });
             }
         }
         Self { moving, step: simulation.work.step }
@@ -68,17 +72,16 @@ impl Held {
     fn put(&self, part: f64, simulation: &mut Simulation, as_planned: bool) {
         let Simulation { assembly, state, work, .. } = simulation;
         for moving in &self.moving {
-            let frame = assembly.frame(moving.member).unwrap_or_default();
-            let planned = assembly.moving.iter().find(|keyframes| keyframes.member == moving.member);
-            let planned = planned.map(|keyframes| keyframes.at(state.time + part * self.step));
+            let planned = moving.planned.filter(|_| as_planned);
+            let planned = planned.map(|at| assembly.moving[at].at(state.time + part * self.step));
             let Some(support) = assembly.support_mut(moving.member) else { continue };
-            let between = part_of_the_way(&moving.from, &moving.to, part);
+            let between = moving.from.towards(&moving.to, part);
             let moved = || between.compose(&moving.to.inverse()).compose(&moving.target);
-            support.pose = planned.filter(|_| as_planned).unwrap_or_else(moved);
+            support.pose = planned.unwrap_or_else(moved);
             if let (Some(hand), Some(grip)) = (&moving.hand, &mut support.grip) {
                 // The damper looks back to where the frame would be, were its rate of this stage nought.
-                let (held, since) = work.stage.without_rate(frame);
-                let hand_at = |part: f64| part_of_the_way(&hand.before, &hand.target, part);
+                let (held, since) = work.stage.without_rate(moving.frame);
+                let hand_at = |part: f64| hand.before.towards(&hand.target, part);
                 grip.hand = hand_at(part);
                 grip.last =
                     Some(LastFrame { hand: hand_at(part - since / self.step), held, time_step: since });
@@ -90,13 +93,12 @@ impl Held {
     pub fn end(self, simulation: &mut Simulation) {
         let Simulation { assembly, state, .. } = simulation;
         for moving in &self.moving {
-            let frame = assembly.frame(moving.member).unwrap_or_default();
             let Some(support) = assembly.support_mut(moving.member) else { continue };
             support.pose = moving.target;
             if let (Some(hand), Some(grip)) = (&moving.hand, &mut support.grip) {
                 grip.hand = hand.target;
-                grip.last =
-                    Some(LastFrame { hand: hand.target, held: state.poses[frame], time_step: self.step });
+                let held = state.poses[moving.frame];
+                grip.last = Some(LastFrame { hand: hand.target, held, time_step: self.step });
             }
         }
     }

@@ -10,10 +10,10 @@
 
 use super::energy::Power;
 use super::holds::Held;
-use super::stage::{Resistance, Stage, air, so3_tangent};
+use super::stage::{Resistance, Stage, viscous_point};
 use super::{Simulation, StepFailure, Taken, Work};
 use crate::element::DiagonalPoint;
-use crate::math::{Mat3, Pose, Quat, Vec3, Vec6, Wrench, tangent_inverse};
+use crate::math::{Mat3, Pose, Quat, Vec3, Vec6, Wrench, so3_tangent, so3_tangent_inverse, tangent_inverse};
 use crate::rod::NodeInertia;
 use crate::statics::Inertial;
 use core::ops::Range;
@@ -46,7 +46,7 @@ impl Stage {
         resistance: &Resistance,
     ) {
         let per_step = 0.5 / self.of_rate;
-        for (at, i) in frames.enumerate() {
+        for (at, i) in frames.clone().enumerate() {
             let (base, pose) = (&self.base[i], &poses[at]);
             let NodeInertia { mass, rotational } = inertia[i];
             let known = self.known_momenta[i];
@@ -64,7 +64,7 @@ impl Stage {
             let momentum = linear * mass;
             let by_half = Mat3::diagonal(rotational) * by_half.scaled(2.0 * per_step)
                 - Mat3::hat(body_spin) * so3_tangent(half * 2.0).scaled(2.0);
-            let by_turn = after * by_half * so3_tangent(half).inverse() * pose.rotation.transpose();
+            let by_turn = after * by_half * so3_tangent_inverse(half) * pose.rotation.transpose();
             let lost = resistance.lost;
             let mean = Wrench::new((spin + spin_before) * 0.5, moved * (mass * per_step));
             let change = Wrench::new(spin - spin_before, momentum - known.linear);
@@ -80,14 +80,8 @@ impl Stage {
                     Mat3::IDENTITY.scaled(-mass * per_step * (4.0 * per_step + 2.0 * lost)),
                 ],
             };
-            if let Some((drag, lengths, wind)) = resistance.air {
-                let (force, by_velocity) = air(&drag, pose.rotation.cols[2], moved * per_step - wind);
-                self.drags[i] = force * lengths[at];
-                self.inertial[i].exerts.linear += self.drags[i];
-                let by_shift = &mut self.inertial[i].by_shift[1];
-                *by_shift = *by_shift + by_velocity.scaled(lengths[at] * 2.0 * per_step);
-            }
         }
+        self.take_drag(frames, poses, resistance);
     }
 
     /// Takes into the elements' laws that the mean of their exponents before and after has the mean stress, and works as their energy grows.
@@ -122,13 +116,10 @@ impl Stage {
             let (work, square) = (stress.dot(y - change), y.dot(along));
             let strained = stress.dot(elastic.compliance.scale(stress));
             let part = if square > STILL * STILL * strained { work / square } else { 0.0 };
-            let point = &mut self.points[elements.start + e];
             // The stress is the mean one less `part` of that along the increments.
-            let known = elastic.rest + x_before * stiffer;
-            point.compliance = elastic.compliance * (1.0 / (1.0 + stiffer));
-            point.rest = known * (1.0 / (1.0 + stiffer))
-                + (x - mean)
-                + elastic.compliance.scale(along) * (part / (1.0 + stiffer));
+            let mut point = viscous_point(elastic, x_before, stiffer);
+            point.rest += (x - mean) + point.compliance.scale(along) * part;
+            self.points[elements.start + e] = point;
             self.strain_rates[elements.start + e] = change * (0.5 / self.of_rate);
         }
     }

@@ -20,12 +20,12 @@ pub use energy::{Budget, Power};
 pub use failure::{SimulationError, StepFailure};
 pub use integrator::Integrator;
 pub use start::Start;
-pub use state::{Past, State};
+pub use state::{Means, Past, State};
 
-use crate::assembly::{Assembly, Body, Cluster, JointKind, Strand, Ties};
+use crate::assembly::{Assembly, Body, Cluster, JointKind, Member, Strand, Ties};
 use crate::math::{Pose, SimdLevel, Vec3, Vec6, Wrench};
 use crate::rod::{NodeInertia, Order};
-use crate::statics::{Network, Problem};
+use crate::statics::{Network, Problem, Support};
 use core::ops::Range;
 use newton::{Group, RodSystem};
 use stage::Stage;
@@ -81,7 +81,7 @@ pub struct Step {
     pub pieces: usize,
 }
 
-/// A rod that moves.
+/// Rods, bodies and joints that move.
 ///
 /// ```
 /// # use strands::dynamics::{Integrator, Settings, Simulation, Start};
@@ -203,10 +203,18 @@ impl Simulation {
         &self.assembly
     }
 
-    /// The same, to change loads, drag and wind, to move what holds it or to let go of it between steps. The rods, their numbers of nodes, the bodies'
-    /// inertia and the joints stay.
+    /// The same, to change loads, drag and wind, or what is held, between steps: all at once, so rates of before are forgotten. The rods, their numbers of
+    /// nodes, the bodies' inertia and the joints stay.
     pub fn assembly_mut(&mut self) -> &mut Assembly {
+        if matches!(self.state.past, Past::Rates { .. }) {
+            self.state.past = Past::None;
+        }
         &mut self.assembly
+    }
+
+    /// What holds a frame, to move it: it gets there by the end of the next step.
+    pub fn support_mut(&mut self, member: Member) -> Option<&mut Support> {
+        self.assembly.support_mut(member)
     }
 
     /// How steps are made.
@@ -226,24 +234,7 @@ impl Simulation {
     pub fn restore(&mut self, state: State) -> Result<(), SimulationError> {
         let needed = self.assembly.frames();
         let got = state.poses.len();
-        let past = match &state.past {
-            Past::None => [needed; 2],
-            Past::Before { poses, momenta } => [poses.len(), momenta.len()],
-            Past::Rates { momentum, mean_velocity, mean_momentum, .. } => {
-                [momentum.len(), mean_velocity.len().max(mean_momentum.len())]
-            }
-        };
-        let elements = self.state.wrenches.len();
-        let strains = match &state.past {
-            Past::Rates { strain, mean_strain, .. } => [strain.len(), mean_strain.len()],
-            _ => [elements; 2],
-        };
-        let fits = got == needed
-            && [state.velocities.len(), state.momenta.len()] == [needed; 2]
-            && past == [needed; 2]
-            && strains == [elements; 2]
-            && state.wrenches.len() == elements;
-        if !fits {
+        if !state.fits(needed, self.state.wrenches.len()) {
             return Err(SimulationError::Unfit { got, needed });
         }
         self.state = state;

@@ -6,6 +6,7 @@ use crate::assembly::{Assembly, Member, Ties};
 use crate::math::{Pose, SimdLevel, Vec3, Wrench, larger};
 use crate::rod::{Kinematics, NodeInertia};
 use crate::statics::{Motion, Network, Nodal, Problem, Record, Support, meet, rigid_compliance};
+use core::ops::Range;
 
 /// Round-off of a frame, with room, over that of a number.
 const ROUND_OFF: f64 = 4.0;
@@ -53,9 +54,19 @@ impl RodSystem {
         Self { rod, first, first_element, nodal: Nodal::default(), record }
     }
 
+    /// The frames of its nodes.
+    fn nodes(&self) -> Range<usize> {
+        self.first..self.first + self.record.poses.len()
+    }
+
+    /// Its elements, where those of all rods are numbered one after the other.
+    pub fn elements(&self) -> Range<usize> {
+        self.first_element..self.first_element + self.record.wrenches.len()
+    }
+
     fn take_motion(&mut self, given: &Given, stage: &mut Stage) {
         let strand = &given.assembly.strands[self.rod];
-        let nodes = self.first..self.first + self.record.poses.len();
+        let (nodes, elements) = (self.nodes(), self.elements());
         let moves = strand.drag != Default::default();
         let resistance = Resistance {
             lost: given.lost,
@@ -63,7 +74,6 @@ impl RodSystem {
         };
         let (viscosity, poses) = (strand.viscosity, &self.record.poses);
         let elastic = strand.problem.rod.diagonal_points().unwrap_or_default();
-        let elements = self.first_element..self.first_element + elastic.len();
         if stage.middle {
             stage.take_inertia_at_middle(nodes, given.inertia, poses, given.origin, &resistance);
             stage.take_secants(elements, self.first, elastic, viscosity, poses);
@@ -78,9 +88,9 @@ impl RodSystem {
     fn motion<'a>(&self, assembly: &'a Assembly, stage: &'a Stage) -> Motion<'a> {
         let strand = &assembly.strands[self.rod];
         let elastic = strand.problem.rod.diagonal_points().unwrap_or_default();
-        let taken = &stage.points[self.first_element..self.first_element + elastic.len()];
+        let taken = &stage.points[self.elements()];
         let points = if stage.middle || strand.viscosity > 0.0 { taken } else { elastic };
-        Motion { points, inertial: &stage.inertial[self.first..self.first + self.record.poses.len()] }
+        Motion { points, inertial: &stage.inertial[self.nodes()] }
     }
 }
 
@@ -108,18 +118,29 @@ impl Group {
     /// Takes the frames that all are guessed to have, and what the elements carry.
     fn guess(&mut self, assembly: &Assembly, ties: &Ties, poses: &mut [Pose], state: &super::State) {
         for system in &mut self.rods {
-            let nodes = system.first..system.first + system.record.poses.len();
             for (node, support) in assembly.strands[system.rod].problem.supports() {
                 let pose = &mut poses[system.first + node];
                 *pose = meet(support, pose);
             }
-            let elements = system.first_element..system.first_element + nodes.len() - 1;
+            let elements = system.elements();
             system.record.wrenches.copy_from_slice(&state.wrenches[elements]);
         }
         self.meet(assembly, ties, poses);
+        self.take_frames(poses);
+    }
+
+    /// Gives the rods their nodes' frames.
+    fn take_frames(&mut self, poses: &[Pose]) {
         for system in &mut self.rods {
-            let nodes = system.first..system.first + system.record.poses.len();
+            let nodes = system.nodes();
             system.record.poses.copy_from_slice(&poses[nodes]);
+        }
+    }
+
+    /// Takes the frames of the rods' nodes from them.
+    fn give_frames(&self, poses: &mut [Pose]) {
+        for system in &self.rods {
+            poses[system.nodes()].copy_from_slice(&system.record.poses);
         }
     }
 
@@ -145,18 +166,16 @@ impl Group {
         for system in &mut self.rods {
             system.take_motion(given, stage);
         }
-        let Some(network) = &mut self.network else {
+        if self.network.is_none() {
             let [system] = &mut self.rods[..] else { return f64::NAN };
             let problem = &assembly.strands[system.rod].problem;
             let motion = system.motion(assembly, stage);
             let lent = lent(problem, stage.of_rate);
             let distance = system.nodal.linearise_moving(problem, level, lent, &motion, &mut system.record);
             return distance.map_or(f64::NAN, |distance| distance.residual());
-        };
-        for system in &self.rods {
-            poses[system.first..system.first + system.record.poses.len()]
-                .copy_from_slice(&system.record.poses);
         }
+        self.give_frames(poses);
+        let Some(network) = &mut self.network else { return f64::NAN };
         let origin = poses[network.frames()[0]].position;
         let axes = network.axes(assembly, origin);
         let mut slack = 0.0;
@@ -199,34 +218,27 @@ impl Group {
         let rods = self.rods.iter().map(|system| system.nodal.step_size()).fold(0.0, larger);
         let size = self.network.as_ref().map_or(rods, |network| larger(rods, network.step_size()));
         let part = (1.0 / size).min(1.0);
-        for RodSystem { rod, first, nodal, record, .. } in &mut self.rods {
+        for RodSystem { rod, nodal, record, .. } in &mut self.rods {
             nodal.take(&assembly.strands[*rod].problem, level, part, record);
-            if self.network.is_some() {
-                poses[*first..*first + record.poses.len()].copy_from_slice(&record.poses);
-            }
         }
         let Some(network) = &self.network else { return };
+        self.give_frames(poses);
         for (at, body) in self.bodies.iter().enumerate() {
             let pose = &mut poses[assembly.first_body() + body];
             *pose = network.taken(at, part, pose);
         }
         self.meet(assembly, ties, poses);
-        for RodSystem { first, record, .. } in &mut self.rods {
-            let nodes = *first..*first + record.poses.len();
-            record.poses.copy_from_slice(&poses[nodes]);
-        }
+        self.take_frames(poses);
     }
-}
 
-impl Group {
     /// What is left over of a frame of the group and what hangs from it: force, and moment about the world's origin.
-    pub fn left_over(&self, frame: usize, assembly: &Assembly) -> Option<Wrench> {
+    pub fn left_over(&self, frame: usize) -> Option<Wrench> {
         if let Some(network) = &self.network {
             let at = network.frames().iter().position(|of| *of == frame)?;
             return Some(network.left_over(at));
         }
         let system = &self.rods[0];
-        let nodes = assembly.nodes(system.rod);
+        let nodes = system.nodes();
         nodes.contains(&frame).then(|| system.left_over(frame - nodes.start))
     }
 
@@ -340,12 +352,10 @@ impl Simulation {
             group.step(assembly, ties, level, &mut work.poses);
             iterations += 1;
         };
+        group.give_frames(&mut work.poses);
         for system in &group.rods {
-            let RodSystem { rod, first, first_element, record, .. } = system;
-            let elements = *first_element..*first_element + record.wrenches.len();
-            work.poses[*first..*first + record.poses.len()].copy_from_slice(&record.poses);
-            if assembly.strands[*rod].viscosity > 0.0 && !stage.middle {
-                stage.take_strain_rates(elements, &record.poses);
+            if assembly.strands[system.rod].viscosity > 0.0 && !stage.middle {
+                stage.take_strain_rates(system.elements(), &system.record.poses);
             }
         }
         group.keep_left_over(assembly, stage, *origin);

@@ -4,8 +4,8 @@ use super::State;
 use super::inertia::TakeInertia;
 use crate::assembly::Drag;
 use crate::element::DiagonalPoint;
-use crate::math::{Mat3, Pose, Quat, SimdLevel, Vec3, Vec6, Wrench, dispatch, exp_coefficients};
-use crate::rod::NodeInertia;
+use crate::math::{Mat3, Pose, Quat, SimdLevel, Vec3, Vec6, Wrench, dispatch, so3_tangent};
+use crate::rod::{NodeInertia, exponents};
 use crate::statics::Inertial;
 use core::ops::Range;
 
@@ -146,11 +146,8 @@ impl Stage {
     /// Takes the rates of the exponents of some viscous elements into their laws: with `x = x̂ + a ẋ` such a law is an elastic one against another rest
     /// shape, stiffer and elsewhere. The exponents have the same history as all else that changes in time, so a motion without strain has no rate.
     pub fn take_viscosity(&mut self, elements: Range<usize>, elastic: &[DiagonalPoint], viscosity: f64) {
-        let stiffer = viscosity / self.of_rate;
         for (e, elastic) in elements.zip(elastic) {
-            let point = &mut self.points[e];
-            point.compliance = elastic.compliance * (1.0 / (1.0 + stiffer));
-            point.rest = (elastic.rest + self.known_strains[e] * stiffer) * (1.0 / (1.0 + stiffer));
+            self.points[e] = viscous_point(elastic, self.known_strains[e], viscosity / self.of_rate);
         }
     }
 
@@ -173,10 +170,15 @@ impl Stage {
     ) {
         let (first, lost) = (frames.start, resistance.lost);
         dispatch(level, TakeInertia { stage: self, first, inertia, poses, origin, lost });
+        self.take_drag(frames, poses, resistance);
+    }
+
+    /// What the air exerts on some frames, beside what inertia does.
+    pub fn take_drag(&mut self, frames: Range<usize>, poses: &[Pose], resistance: &Resistance) {
         let Some((drag, lengths, wind)) = resistance.air else { return };
         let per_rate = 1.0 / self.of_rate;
         for (at, i) in frames.enumerate() {
-            let velocity = self.velocities[i].linear - wind;
+            let velocity = self.velocity(i).linear - wind;
             let (force, by_velocity) = air(&drag, poses[at].rotation.cols[2], velocity);
             self.drags[i] = force * lengths[at];
             self.inertial[i].exerts.linear += self.drags[i];
@@ -186,8 +188,14 @@ impl Stage {
     }
 }
 
+/// The law of an element with the stress of its rate, so many times its stiffness times how far its exponent is from the one that is known.
+pub(super) fn viscous_point(elastic: &DiagonalPoint, known: Vec6, stiffer: f64) -> DiagonalPoint {
+    let softer = 1.0 / (1.0 + stiffer);
+    DiagonalPoint { compliance: elastic.compliance * softer, rest: (elastic.rest + known * stiffer) * softer }
+}
+
 /// What the air exerts on a rod along `tangent` that moves through it, over its length, and how that changes with the velocity.
-pub(super) fn air(drag: &Drag, tangent: Vec3, velocity: Vec3) -> (Vec3, Mat3) {
+fn air(drag: &Drag, tangent: Vec3, velocity: Vec3) -> (Vec3, Mat3) {
     let across = Mat3::IDENTITY - Mat3::outer(tangent, tangent);
     let normal = across * velocity;
     let speed = normal.norm();
@@ -206,15 +214,4 @@ fn coordinates(base: &Pose, pose: &Pose) -> Vec6 {
 fn at_coordinates(base: &Pose, q: Vec6) -> Pose {
     let turn = Quat::from_rotation_vector(q.angular).to_matrix();
     Pose { rotation: base.rotation * turn, position: base.position + q.linear }
-}
-
-/// `T(θ)`.
-pub(super) fn so3_tangent(theta: Vec3) -> Mat3 {
-    let (k, hat) = (exp_coefficients(theta.dot(theta)), Mat3::hat(theta));
-    Mat3::IDENTITY - hat.scaled(k.b) + (hat * hat).scaled(k.c)
-}
-
-/// The exponents between neighbouring frames.
-pub(super) fn exponents(poses: &[Pose]) -> impl Iterator<Item = Vec6> {
-    poses.windows(2).map(|pair| pair[0].between(&pair[1]).log())
 }

@@ -1,7 +1,7 @@
 //! Where a simulation starts.
 
 use super::holds::put_as_planned;
-use super::{Integrator, Past, Power, Settings, Simulation, SimulationError, State, StepFailure};
+use super::{Integrator, Past, Power, Simulation, SimulationError, State, StepFailure};
 use crate::math::{Vec6, Wrench, larger};
 use crate::statics::{self, Method, Scheme, Workspace, meet};
 
@@ -93,12 +93,10 @@ impl Simulation {
     /// Where all comes to rest, by steps of backward Euler's method from rest that grow as it gets there (Kelley & Keyes 1998): one that is long
     /// beside all motion is a step of Newton's method for the equilibrium itself.
     fn relax(&mut self) -> Result<(), SimulationError> {
-        let settings = self.settings;
+        let bounded = core::mem::replace(&mut self.settings.bounded, false);
         let gravity = self.pull();
         let slowest = if gravity > 0.0 { (self.assembly.size() / gravity).sqrt() } else { 1.0 };
         let mut step = 0.1 * slowest;
-        self.settings =
-            Settings { integrator: Integrator::ImplicitEuler, bounded: false, local_error: None, ..settings };
         let mut outcome = Ok(());
         for _ in 0..RELAXATIONS {
             outcome = self.undivided(Integrator::ImplicitEuler, step).map(|taken| {
@@ -114,10 +112,10 @@ impl Simulation {
                 break;
             }
         }
-        self.settings = settings;
+        self.settings.bounded = bounded;
         let last = self.work.step;
         let State { time, dissipated, worked, next_step, .. } = &mut self.state;
-        (*time, *dissipated, *worked, *next_step) = (0.0, 0.0, 0.0, settings.time_step);
+        (*time, *dissipated, *worked, *next_step) = (0.0, 0.0, 0.0, self.settings.time_step);
         if last <= LONG * slowest && outcome.is_ok() {
             outcome =
                 Err(StepFailure::NotConverged { time: 0.0, step: last, history: self.work.history.clone() });

@@ -43,20 +43,26 @@ pub enum Past {
         /// Their momenta.
         momenta: Vec<Wrench>,
     },
-    /// The rates now and their weighted means, for the generalised-α method: of the frames (in the axes of their velocities), of the momenta, and of the
-    /// exponents of viscous elements.
+    /// The rates now, for methods that begin a step with them.
     Rates {
-        /// What acts on each frame.
+        /// What acts on each frame: the rates of the momenta.
         momentum: Vec<Wrench>,
-        /// The rates of the exponents.
+        /// The rates of the exponents of viscous elements.
         strain: Vec<Vec6>,
-        /// The mean velocities.
-        mean_velocity: Vec<Vec6>,
-        /// The mean rates of the momenta.
-        mean_momentum: Vec<Wrench>,
-        /// The mean rates of the exponents.
-        mean_strain: Vec<Vec6>,
+        /// Their weighted means, for the generalised-α method.
+        means: Option<Means>,
     },
+}
+
+/// The weighted means of rates of the generalised-α method: about as they were `α_f − α_m` of a step ago.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct Means {
+    /// Of the frames, in the axes of their velocities.
+    pub velocity: Vec<Vec6>,
+    /// Of the momenta.
+    pub momentum: Vec<Wrench>,
+    /// Of the exponents of viscous elements.
+    pub strain: Vec<Vec6>,
 }
 
 impl State {
@@ -75,5 +81,22 @@ impl State {
             next_step,
             past: Past::None,
         }
+    }
+
+    /// Whether it is of so many frames and elements.
+    pub(super) fn fits(&self, frames: usize, elements: usize) -> bool {
+        let past = match &self.past {
+            Past::None => true,
+            Past::Before { poses, momenta } => poses.len() == frames && momenta.len() == frames,
+            Past::Rates { momentum, strain, means } => {
+                let fit = |means: &Means| {
+                    [means.velocity.len(), means.momentum.len()] == [frames; 2]
+                        && means.strain.len() == elements
+                };
+                momentum.len() == frames && strain.len() == elements && means.as_ref().is_none_or(fit)
+            }
+        };
+        let now = [self.poses.len(), self.velocities.len(), self.momenta.len()];
+        past && now == [frames; 3] && self.wrenches.len() == elements
     }
 }

@@ -2,9 +2,8 @@
 
 use super::energy::Power;
 use super::holds::Held;
-use super::integrator::{IMPLICIT_EULER, Integrator, RungeKutta, SDIRK4, SDIRK4_ERROR};
-use super::newton::RodSystem;
-use super::{Past, Simulation, Step, StepFailure, Taken, Work};
+use super::integrator::{GeneralizedAlpha, IMPLICIT_EULER, Integrator, RungeKutta, SDIRK4, SDIRK4_ERROR};
+use super::{Means, Past, Simulation, Step, StepFailure, Taken, Work};
 use crate::math::{Pose, Vec6, Wrench, larger};
 
 /// Into so many pieces is a step cut that was not solved, one after the other until it is.
@@ -13,8 +12,12 @@ const PIECES: [usize; 3] = [4, 16, 64];
 const SAFETY: f64 = 0.9;
 const LONGER: f64 = 4.0;
 const SHORTER: f64 = 0.2;
+/// One that is made again is at most so long: where much vibrates faster than the steps, their error falls slowly with their length.
+const AGAIN: f64 = 0.7;
 /// Steps are not shortened below this part of the longest for their error.
 const SHORTEST: f64 = 1e-9;
+/// Where a method needs rates to begin with, two steps of backward Euler's method find them, each this part of a step long.
+const BEGINNING: f64 = 1e-4;
 
 /// A part of a step: where it begins and how long it is, over the whole.
 #[derive(Clone, Copy)]
@@ -56,11 +59,7 @@ impl Simulation {
     /// Where one cannot be made; the state is then that before it.
     pub fn advance(&mut self, until: f64) -> Result<Step, StepFailure> {
         let mut all = Step { time: self.state.time, seconds: 0.0, iterations: 0, residual: 0.0, pieces: 0 };
-        let slack = match self.settings.local_error {
-            Some(_) => 1e-9 * self.settings.time_step,
-            None => 0.5 * self.settings.time_step,
-        };
-        while self.state.time < until - slack {
+        while !self.has_come_to(until) {
             let step = self.step_towards(until)?;
             all.time = step.time;
             all.seconds += step.seconds;
@@ -69,6 +68,12 @@ impl Simulation {
             all.pieces += step.pieces;
         }
         Ok(all)
+    }
+
+    /// Whether a time, s, is over. Where all steps are alike no other one would end nearer to it.
+    pub fn has_come_to(&self, time: f64) -> bool {
+        let near = if self.settings.local_error.is_some() { 1e-9 } else { 0.5 };
+        self.state.time >= time - near * self.settings.time_step
     }
 
     fn whole_or_in_pieces(&mut self, held: &Held) -> Result<Step, StepFailure> {
@@ -93,7 +98,7 @@ impl Simulation {
             if all.is_ok() {
                 // Not a sum of pieces.
                 self.state.time = before.time + self.work.step;
-                self.look_back_on(integrator, before.poses, before.momenta);
+                self.look_back_on(integrator, before.poses, before.momenta, pieces);
                 return Ok(self.report(taken, self.work.step, pieces));
             }
             self.state.clone_from(&before);
@@ -130,7 +135,9 @@ impl Simulation {
             };
             match made {
                 Ok(taken) if error <= 1.0 => {
-                    let cut = step < before.next_step;
+                    // One like that which was just too long is not tried again at once.
+                    let grows = if tries == 1 { grows } else { grows.min(1.0) };
+                    let cut = step < before.next_step && tries == 1;
                     self.state.next_step =
                         if cut { before.next_step.max(step * grows) } else { step * grows };
                     iterations += taken.iterations;
@@ -148,7 +155,7 @@ impl Simulation {
                 made => iterations += made.map_or(0, |taken| taken.iterations),
             }
             self.state.clone_from(&before);
-            step *= grows.min(SAFETY);
+            step *= grows.min(AGAIN);
         }
         unreachable!("steps are shortened until they are too short")
     }
@@ -178,12 +185,12 @@ impl Simulation {
     fn piece(&mut self, integrator: Integrator, held: &Held, piece: Piece) -> Result<Taken, StepFailure> {
         match integrator {
             Integrator::ImplicitEuler => self.runge_kutta(&IMPLICIT_EULER, held, piece),
-            Integrator::Sdirk4 => self.runge_kutta(&SDIRK4, held, piece),
+            Integrator::Sdirk4 => self.sdirk4(held, piece),
             Integrator::Midpoint => self.midpoint(held, piece.begin + 0.5 * piece.length, piece.length),
             Integrator::Bdf2 | Integrator::GeneralizedAlpha { .. } if !self.looks_back(integrator) => {
                 let (poses, momenta) = (self.state.poses.clone(), self.state.momenta.clone());
-                let taken = self.runge_kutta(&SDIRK4, held, piece)?;
-                self.look_back_on(integrator, poses, momenta);
+                let taken = self.sdirk4(held, piece)?;
+                self.look_back_on(integrator, poses, momenta, 1);
                 Ok(taken)
             }
             Integrator::Bdf2 => self.bdf2(held),
@@ -194,38 +201,107 @@ impl Simulation {
     /// Whether there is what the integrator looks back on.
     fn looks_back(&self, integrator: Integrator) -> bool {
         match self.state.past {
-            Past::None => false,
             Past::Before { .. } => integrator == Integrator::Bdf2,
-            Past::Rates { .. } => matches!(integrator, Integrator::GeneralizedAlpha { .. }),
+            Past::Rates { means: Some(_), .. } => matches!(integrator, Integrator::GeneralizedAlpha { .. }),
+            Past::None | Past::Rates { means: None, .. } => false,
         }
     }
 
-    /// After a step of another kind, gives the integrator what it looks back on.
-    fn look_back_on(&mut self, integrator: Integrator, poses: Vec<Pose>, momenta: Vec<Wrench>) {
-        self.state.past = match integrator {
-            Integrator::Bdf2 => Past::Before { poses, momenta },
-            Integrator::GeneralizedAlpha { .. } => {
-                let momentum: Vec<Wrench> = self.work.stage.momentum_rates().collect();
-                let strain = self.work.stage.strain_rates.clone();
-                Past::Rates {
-                    mean_strain: strain.clone(),
-                    strain,
-                    mean_velocity: self.state.velocities.clone(),
-                    mean_momentum: momentum.clone(),
-                    momentum,
-                }
+    /// After a step of the method of order 4, in so many pieces, gives the integrator what it looks back on.
+    fn look_back_on(
+        &mut self,
+        integrator: Integrator,
+        poses: Vec<Pose>,
+        momenta: Vec<Wrench>,
+        pieces: usize,
+    ) {
+        let Self { state, work, .. } = self;
+        match integrator {
+            Integrator::Bdf2 => state.past = Past::Before { poses, momenta },
+            Integrator::GeneralizedAlpha { spectral_radius } => {
+                let Past::Rates { momentum, strain, means } = &mut state.past else { return };
+                // How long ago the rates were as their means are, over the piece (Arnold, Brüls & Cardona 2015).
+                let GeneralizedAlpha { alpha_m, alpha_f, .. } = GeneralizedAlpha::new(spectral_radius);
+                let ago = (alpha_f - alpha_m) * pieces as f64;
+                let earlier = |now: Vec6, before: Vec6| now + (before - now) * ago;
+                let Work { stage, coordinate_rates, momentum_rates, strain_rates, .. } = work;
+                let velocity = stage.coordinate_rates.iter().zip(coordinate_rates).enumerate();
+                let velocity = velocity
+                    .map(|(i, (now, before))| stage.turned_with(i, &state.poses[i], earlier(*now, *before)));
+                let mean = |now: &[Vec6], before: &[Vec6]| -> Vec<Vec6> {
+                    now.iter().zip(before).map(|(now, before)| earlier(*now, *before)).collect()
+                };
+                *means = Some(Means {
+                    velocity: velocity.collect(),
+                    momentum: mean(momentum, momentum_rates),
+                    strain: mean(strain, strain_rates),
+                });
             }
-            Integrator::ImplicitEuler | Integrator::Midpoint | Integrator::Sdirk4 => Past::None,
+            Integrator::ImplicitEuler | Integrator::Midpoint | Integrator::Sdirk4 => {}
+        }
+    }
+
+    /// A piece of a step of the method of order 4, which begins with the rates that the last one ended with.
+    fn sdirk4(&mut self, held: &Held, piece: Piece) -> Result<Taken, StepFailure> {
+        if matches!(self.state.past, Past::Rates { .. }) {
+            return self.with_rates(held, piece);
+        }
+        // Velocities may jump now, where a support begins to move, and what holds it then exerts nearly an impulse: that is what the first short step is
+        // for. The second one has what acts thereafter.
+        let before = self.state.clone();
+        let (mut taken, mut rest) = (Taken::default(), piece);
+        let mut all = || {
+            for _ in 0..2 {
+                let short = Piece { begin: rest.begin, length: BEGINNING * piece.length };
+                taken.add(self.runge_kutta(&IMPLICIT_EULER, held, short)?);
+                rest = Piece { begin: rest.begin + short.length, length: rest.length - short.length };
+            }
+            self.remember_rates();
+            taken.add(self.with_rates(held, rest)?);
+            Ok(taken)
         };
+        let made = all();
+        made.map_err(|failure: StepFailure| {
+            self.state = before;
+            failure.in_step(self.state.time, self.work.step)
+        })
+    }
+
+    fn with_rates(&mut self, held: &Held, piece: Piece) -> Result<Taken, StepFailure> {
+        let taken = self.runge_kutta(&SDIRK4, held, piece)?;
+        self.remember_rates();
+        Ok(taken)
+    }
+
+    /// Keeps the rates of the stage that was solved last.
+    fn remember_rates(&mut self) {
+        let Self { state, work: Work { stage, .. }, .. } = self;
+        if !matches!(state.past, Past::Rates { .. }) {
+            state.past = Past::Rates { momentum: Vec::new(), strain: Vec::new(), means: None };
+        }
+        if let Past::Rates { momentum, strain, means } = &mut state.past {
+            momentum.clear();
+            momentum.extend(stage.momentum_rates());
+            strain.clone_from(&stage.strain_rates);
+            *means = None;
+        }
     }
 
     fn runge_kutta(&mut self, method: &RungeKutta, held: &Held, piece: Piece) -> Result<Taken, StepFailure> {
         let h = self.work.step * piece.length;
         let (frames, elements) = (self.state.poses.len(), self.state.wrenches.len());
-        let (mut taken, mut lost) = (Taken::default(), Power::default());
-        self.work.coordinate_rates.clear();
-        self.work.momentum_rates.clear();
-        self.work.strain_rates.clear();
+        let (mut taken, mut lost, mut power) = (Taken::default(), Power::default(), Power::default());
+        let mut weights = method.weights();
+        let Self { state, work: Work { coordinate_rates, momentum_rates, strain_rates, .. }, .. } = self;
+        coordinate_rates.clear();
+        momentum_rates.clear();
+        strain_rates.clear();
+        if let (true, Past::Rates { momentum, strain, .. }) = (method.explicit, &state.past) {
+            coordinate_rates.extend_from_slice(&state.velocities);
+            momentum_rates.extend_from_slice(momentum);
+            strain_rates.extend_from_slice(strain);
+            lost.add(state.power, weights.next().unwrap_or_default() * h);
+        }
         self.begin();
         for (number, before) in method.before.iter().enumerate() {
             let Work { stage, coordinate_rates, momentum_rates, strain_rates, .. } = &mut self.work;
@@ -239,18 +315,19 @@ impl Simulation {
             }
             held.at(piece.begin + method.time(number) * piece.length, self);
             let Work { stage, coordinate_rates, poses, .. } = &mut self.work;
-            match number.checked_sub(1) {
+            match coordinate_rates.len().checked_sub(frames) {
                 None => stage.predict(&self.state.velocities, poses),
-                Some(last) => stage.predict(&coordinate_rates[last * frames..], poses),
+                Some(last) => stage.predict(&coordinate_rates[last..], poses),
             }
             taken.add(self.solve_stage()?);
             let Work { stage, coordinate_rates, momentum_rates, strain_rates, .. } = &mut self.work;
             coordinate_rates.extend_from_slice(&stage.coordinate_rates);
             strain_rates.extend_from_slice(&stage.strain_rates);
             momentum_rates.extend(stage.momentum_rates());
-            self.state.power = self.power();
-            lost.add(self.state.power, method.weight(number) * h);
+            power = self.power();
+            lost.add(power, weights.next().unwrap_or_default() * h);
         }
+        self.state.power = power;
         self.take(lost, h);
         Ok(taken)
     }
@@ -278,19 +355,15 @@ impl Simulation {
     }
 
     fn generalized_alpha(&mut self, radius: f64, held: &Held) -> Result<Taken, StepFailure> {
-        // The `α_m` and `α_f` of Jansen, Whiting & Hulbert are one less these.
-        let alpha_m = (3.0 * radius - 1.0) / (2.0 * (1.0 + radius));
-        let alpha_f = radius / (1.0 + radius);
-        let gamma = 0.5 - alpha_m + alpha_f;
+        let GeneralizedAlpha { alpha_m, alpha_f, gamma } = GeneralizedAlpha::new(radius);
         let h = self.work.step;
         let of_now = gamma / (1.0 - alpha_m);
         self.begin();
         let stage = &mut self.work.stage;
         stage.set_up(of_now * (1.0 - alpha_f) * h, &self.state);
-        if let Past::Rates { momentum, strain, mean_velocity, mean_momentum, mean_strain } = &self.state.past
-        {
+        if let Past::Rates { momentum, strain, means: Some(means) } = &self.state.past {
             let of_mean = h * (1.0 - gamma - of_now * alpha_m);
-            stage.add_history(of_mean, mean_velocity, mean_momentum, mean_strain);
+            stage.add_history(of_mean, &means.velocity, &means.momentum, &means.strain);
             stage.add_history(h * of_now * alpha_f, &self.state.velocities, momentum, strain);
         }
         held.at(1.0, self);
@@ -302,15 +375,15 @@ impl Simulation {
         let mean = |now: Vec6, before: Vec6, mean: Vec6| {
             (now * (1.0 - alpha_f) + before * alpha_f - mean * alpha_m) * (1.0 / (1.0 - alpha_m))
         };
-        if let Past::Rates { momentum, strain, mean_velocity, mean_momentum, mean_strain } = &mut state.past {
+        if let Past::Rates { momentum, strain, means: Some(means) } = &mut state.past {
             for (e, rate) in stage.strain_rates.iter().enumerate() {
-                mean_strain[e] = mean(*rate, strain[e], mean_strain[e]);
+                means.strain[e] = mean(*rate, strain[e], means.strain[e]);
                 strain[e] = *rate;
             }
             for (i, rate) in stage.momentum_rates().enumerate() {
-                let velocity = mean(stage.coordinate_rates[i], state.velocities[i], mean_velocity[i]);
-                mean_velocity[i] = stage.turned_with(i, &poses[i], velocity);
-                mean_momentum[i] = mean(rate, momentum[i], mean_momentum[i]);
+                let velocity = mean(stage.coordinate_rates[i], state.velocities[i], means.velocity[i]);
+                means.velocity[i] = stage.turned_with(i, &poses[i], velocity);
+                means.momentum[i] = mean(rate, momentum[i], means.momentum[i]);
                 momentum[i] = rate;
             }
         }
@@ -338,10 +411,10 @@ impl Simulation {
 
     /// Ends a step, or a piece of it, where its last stage is.
     pub(super) fn take(&mut self, lost: Power, seconds: f64) {
-        let Self { state, work: Work { groups, stage, poses, .. }, assembly, .. } = self;
+        let Self { state, work: Work { groups, stage, poses, .. }, .. } = self;
         state.poses.copy_from_slice(poses);
-        for RodSystem { rod, record, .. } in groups.iter().flat_map(|group| &group.rods) {
-            state.wrenches[assembly.elements(*rod)].copy_from_slice(&record.wrenches);
+        for system in groups.iter().flat_map(|group| &group.rods) {
+            state.wrenches[system.elements()].copy_from_slice(&system.record.wrenches);
         }
         state.velocities.copy_from_slice(&stage.velocities);
         state.momenta.copy_from_slice(&stage.momenta);

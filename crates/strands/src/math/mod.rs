@@ -26,8 +26,8 @@ pub use mat3::Mat3;
 pub use mat6::{Lu, Mat6, lu};
 #[cfg(target_arch = "x86_64")]
 pub(crate) use packed::Packed;
-pub(crate) use pose::part_of_the_way;
 pub use pose::{Pose, tangent, tangent_inverse};
+pub(crate) use pose::{so3_tangent, so3_tangent_inverse};
 pub use quat::Quat;
 pub use real::Real;
 pub(crate) use real::{Register, Wide};

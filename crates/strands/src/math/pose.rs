@@ -40,6 +40,15 @@ impl Pose {
         Vec6::new(u, p - up * 0.5 + u.cross(up) * d)
     }
 
+    /// The frame a part of the way to another: along a straight line, by the shortest turn.
+    pub fn towards(&self, other: &Self, part: f64) -> Self {
+        let turn = self.rotation.turn_to(&other.rotation) * part;
+        Self {
+            rotation: self.rotation * Quat::from_rotation_vector(turn).to_matrix(),
+            position: self.position + (other.position - self.position) * part,
+        }
+    }
+
     /// The matrix of [`Pose::adjoint`].
     pub(crate) fn adjoint_matrix(&self) -> Mat6 {
         let arm = Mat3 { cols: self.rotation.cols.map(|column| self.position.cross(column)) };
@@ -160,15 +169,6 @@ impl<V: Vector> Pose<V> {
     }
 }
 
-/// A frame on the way from one to another: along a straight line, by the shortest turn.
-pub(crate) fn part_of_the_way(from: &Pose, to: &Pose, part: f64) -> Pose {
-    let turn = from.rotation.turn_to(&to.rotation) * part;
-    Pose {
-        rotation: from.rotation * Quat::from_rotation_vector(turn).to_matrix(),
-        position: from.position + (to.position - from.position) * part,
-    }
-}
-
 /// The tangent of the exponential `T(x) = Σ (−1)^k/(k+1)! ad_x^k`: `d exp(x) = exp(x) (T(x) dx)^`.
 pub fn tangent(x: Vec6) -> Mat6 {
     let (u, v) = (x.angular, x.linear);
@@ -190,6 +190,17 @@ pub fn tangent_inverse(x: Vec6) -> Mat6 {
     let diagonal = Mat3::IDENTITY + uh.scaled(0.5) + u2.scaled(d);
     let coupling = vh.scaled(0.5) + uv2.scaled(d) + u2.scaled(2.0 * u.dot(v) * dd);
     Mat6 { blocks: [[diagonal, Mat3::ZERO], [coupling, diagonal]] }
+}
+
+/// The tangent of the exponential of rotations: `d exp(θ) = exp(θ) (T(θ) dθ)^`, the angular part of [`tangent`].
+pub(crate) fn so3_tangent(theta: Vec3) -> Mat3 {
+    let (k, hat) = (exp_coefficients(theta.dot(theta)), Mat3::hat(theta));
+    Mat3::IDENTITY - hat.scaled(k.b) + (hat * hat).scaled(k.c)
+}
+
+/// The inverse of [`so3_tangent`].
+pub(crate) fn so3_tangent_inverse(theta: Vec3) -> Mat3 {
+    tangent_inverse(Vec6::new(theta, Vec3::ZERO)).blocks[0][0]
 }
 
 /// `(θ, d, dd/dt)` with `d(t) = (1 − (θ/2) cot(θ/2))/θ²`, `t = θ²`.

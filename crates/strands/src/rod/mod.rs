@@ -16,6 +16,7 @@ pub use material::Material;
 pub use mesh::{Mesh, Order};
 pub use rest::{RestCurve, RestShape};
 pub use section::Section;
+pub(crate) use shape::exponents;
 
 use crate::element::{DiagonalPoint, PointStrains, exponent};
 use crate::math::{Mat3, Pose, Strain, Vec3};

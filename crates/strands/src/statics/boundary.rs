@@ -12,7 +12,7 @@ use super::problem::{Problem, Support};
 use super::solution::Guess;
 use super::variation::{Columns, Variation, turned_by};
 use crate::load::Pull;
-use crate::math::{Mat3, Mat6, Pose, Quat, Vec3, Vec6, Wrench, tangent, tangent_inverse};
+use crate::math::{Mat3, Mat6, Pose, Quat, Vec3, Vec6, Wrench, so3_tangent, so3_tangent_inverse};
 use crate::rod::Scale;
 
 /// The end of a rod, or a node between, with its reaction: force in world axes, moment by the turns of the fixed frame.
@@ -86,14 +86,6 @@ impl Support {
     fn turn_of(&self, pose: &Pose) -> Vec3 {
         self.pose.rotation.turn_to(&pose.rotation)
     }
-}
-
-fn so3_tangent(phi: Vec3) -> Mat3 {
-    tangent(Vec6::new(phi, Vec3::ZERO)).blocks[0][0]
-}
-
-fn so3_tangent_inverse(phi: Vec3) -> Mat3 {
-    tangent_inverse(Vec6::new(phi, Vec3::ZERO)).blocks[0][0]
 }
 
 impl EndState {

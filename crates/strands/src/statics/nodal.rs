@@ -14,12 +14,17 @@
 //!
 //! All is seen from fixed axes about the rod's start, in which lengths, forces and moments are numbers of order one.
 
+mod axes;
+mod elements;
 mod elimination;
 mod motion;
 mod network;
 mod second_variation;
 mod side_by_side;
 
+use axes::Axes;
+use elements::Linearise;
+pub(crate) use elements::{logs, take_strains};
 pub(crate) use elimination::Inertia;
 use elimination::{Block, Eliminate, Square, pair, parts};
 pub(crate) use motion::{Inertial, Motion};
@@ -32,15 +37,10 @@ use super::boundary::{displacements, displacements_slope, meet};
 use super::march::Record;
 use super::problem::Problem;
 use crate::coupling::Grip;
-use crate::element::{self, DiagonalPoint, Resistance, diagonal_resistance};
-use crate::math::{
-    Kernel, Lanes, Mat3, Mat6, Pose, Real, SimdLevel, Vec3, Vec6, Wide, Wrench, dispatch, larger, largest,
-};
+use crate::element::{self, Resistance};
+use crate::math::{Kernel, Mat3, Mat6, Pose, Real, SimdLevel, Vec3, Vec6, Wrench, dispatch, larger, largest};
 use crate::rod::{Order, Rod};
 
-/// How many elements are linearised side by side.
-const BATCH: usize = 8;
-type Side = Vec3<Lanes<BATCH>>;
 /// The round-off of all pivots together, over that of the largest entry of a stiffness times the number of elements, with room: columns askew to
 /// the axes, which are the worst, have a fourth of it.
 const ROUND_OFF: f64 = 16.0;
@@ -525,27 +525,6 @@ fn dead_moment_slope<R: Real>(at: Vec3<R>, force: Vec3<R>) -> [Mat3<Vec3<R>>; 2]
     [force * Mat3::hat(at), force.scaled(-R::one())]
 }
 
-/// The logarithms of poses, in lanes.
-#[inline(always)]
-pub(crate) fn logs<R: Wide>(poses: &Pose<Vec3<R>>) -> Vec6<Vec3<R>> {
-    let mut logs = poses.log_of_small_turn();
-    if !R::all(logs.angular.x.at_most(f64::INFINITY)) {
-        log_large_turns(poses, &mut logs);
-    }
-    logs
-}
-
-/// Where a turn is too large for the short way.
-#[cold]
-#[inline(never)]
-fn log_large_turns<R: Wide>(poses: &Pose<Vec3<R>>, logs: &mut Vec6<Vec3<R>>) {
-    for lane in 0..R::LANES {
-        if logs.angular.x.number(lane).is_nan() {
-            logs.put(lane, poses.lane(lane).log());
-        }
-    }
-}
-
 /// How a wrench at a place, its moment about the origin, changes with the frame there beside what it does as a dead one, where its moment about the
 /// place changes by so much with the turn, and that and its force with the shift.
 fn force_slope(at: Vec3, by_turn: Mat3, [moment, force]: [Mat3; 2]) -> Mat6 {
@@ -563,180 +542,4 @@ fn grip_acts(grip: &Grip, pose: &Pose, at: Vec3, axes: &Axes) -> (Wrench, Mat6) 
     let by_shift = by_shift.scaled(axes.length / axes.force);
     let acts = Wrench::new(wrench.angular + at.cross(wrench.linear), wrench.linear);
     (acts, force_slope(at, by_turn, [Mat3::ZERO, by_shift]))
-}
-
-/// Elements of a rod of order 2 with a diagonal law, side by side, in the fixed axes.
-struct Elements {
-    compliance: Vec6<Side>,
-    rest: Vec6<Side>,
-    /// The wrenches that they carry through their far nodes.
-    wrench: Wrench<Side>,
-    /// The exponents between their frames.
-    x: Vec6<Side>,
-    /// The poses of their far nodes.
-    far: Pose<Side>,
-}
-
-impl Elements {
-    /// From the first on as many as there are lanes; past the last element it repeats that.
-    #[inline(always)]
-    fn gather(rod: &Rod, points: &[DiagonalPoint], axes: &Axes, state: &Record, first: usize) -> Self {
-        let [mut compliance, mut rest, mut wrench] = [Vec6::<Side>::zero(); 3];
-        let mut near = Mat3 { cols: [Side::zero(); 3] };
-        let mut far = Pose { rotation: near, position: Side::zero() };
-        let mut apart = Side::zero();
-        for i in 0..BATCH {
-            let e = (first + i).min(rod.elements() - 1);
-            let point = &points[e];
-            compliance.put(i, axes.compliance(point.compliance));
-            rest.put(i, axes.shift(point.rest));
-            wrench.put(i, axes.wrench(state.wrenches[e]));
-            let (a, b) = (&state.poses[e], &state.poses[e + 1]);
-            (0..3).for_each(|k| near.cols[k].put(i, a.rotation.cols[k]));
-            far.put(i, &axes.frame(b));
-            // Of the places as they are: round-off in others would be seen through the stiffness against stretching.
-            apart.put(i, (b.position - a.position) * (1.0 / axes.length));
-        }
-        let relative =
-            Pose { rotation: near.transpose() * far.rotation, position: near.transpose_mul(apart) };
-        Self { compliance, rest, wrench, x: logs(&relative), far }
-    }
-}
-
-/// Gives elements of order 2 with a diagonal law the strains that belong to what they carry.
-pub(crate) fn take_strains(rod: &Rod, points: &[DiagonalPoint], level: SimdLevel, state: &mut Record) {
-    dispatch(level, TakeStrains { rod, points, state });
-}
-
-struct TakeStrains<'a> {
-    rod: &'a Rod,
-    points: &'a [DiagonalPoint],
-    state: &'a mut Record,
-}
-
-impl Kernel for TakeStrains<'_> {
-    type Output = ();
-
-    #[inline(always)]
-    fn run(self) {
-        let Self { rod, points, state } = self;
-        let axes = Axes { origin: state.poses[0].position, ..Axes::default() };
-        for first in (0..rod.elements()).step_by(BATCH) {
-            let Elements { compliance, rest, wrench, x, .. } =
-                Elements::gather(rod, points, &axes, state, first);
-            let exponent = rest + compliance.scale(element::mean_wrench(x, wrench));
-            for i in 0..BATCH.min(rod.elements() - first) {
-                let e = first + i;
-                state.strains[e] = [exponent.lane(i) * (1.0 / rod.element_length(e)); 2];
-            }
-        }
-    }
-}
-
-/// Linearises the elements of a rod of order 2 with a diagonal law, several side by side.
-struct Linearise<'a> {
-    rod: &'a Rod,
-    points: &'a [DiagonalPoint],
-    axes: &'a Axes,
-    lent: f64,
-    state: &'a mut Record,
-    links: &'a mut Vec<Link<f64>>,
-}
-
-impl Kernel for Linearise<'_> {
-    type Output = f64;
-
-    #[inline(always)]
-    fn run(self) -> f64 {
-        let Self { rod, points, axes, lent, state, links } = self;
-        let n = rod.elements();
-        let mut worst = 0.0;
-        for first in (0..n).step_by(BATCH) {
-            let Elements { compliance, rest, wrench, x, far } =
-                Elements::gather(rod, points, axes, state, first);
-            let share = Lanes::from_fn(|i| lent * rod.element_length((first + i).min(n - 1)) / rod.length());
-            let Resistance { stiffness, pull, slack } =
-                diagonal_resistance(compliance, rest, share, x, wrench, &far);
-            let carried = far.carry_wrench(wrench);
-            for i in 0..BATCH.min(n - first) {
-                let mut rows = [[0.0; 6]; 6];
-                for r in 0..6 {
-                    for c in 0..6 {
-                        let column = &stiffness[r / 3][c / 3].cols[c % 3];
-                        rows[r][c] = [&column.x, &column.y, &column.z][r % 3].0[i];
-                    }
-                }
-                worst = larger(worst, largest(&slack.lane(i).to_array()));
-                links.push(Link { stiffness: rows, carried: carried.lane(i), pull: pull.lane(i) });
-            }
-        }
-        worst
-    }
-}
-
-/// Fixed axes about the rod's start, in which lengths, forces and moments are numbers of order one.
-#[derive(Clone, Copy, Debug)]
-pub(crate) struct Axes {
-    origin: Vec3,
-    length: f64,
-    force: f64,
-    moment: f64,
-}
-
-impl Default for Axes {
-    fn default() -> Self {
-        Self { origin: Vec3::ZERO, length: 1.0, force: 1.0, moment: 1.0 }
-    }
-}
-
-impl Axes {
-    fn new(problem: &Problem, record: &Record) -> Self {
-        let scale = problem.rod.scale();
-        let origin = record.poses[0].position;
-        Self { origin, length: scale.length, force: scale.force, moment: scale.moment }
-    }
-
-    fn at(&self, position: Vec3) -> Vec3 {
-        (position - self.origin) * (1.0 / self.length)
-    }
-
-    fn frame(&self, pose: &Pose) -> Pose {
-        Pose { rotation: pose.rotation, position: self.at(pose.position) }
-    }
-
-    fn in_world(&self, pose: &Pose) -> Pose {
-        Pose { rotation: pose.rotation, position: self.origin + pose.position * self.length }
-    }
-
-    fn wrench(&self, wrench: Wrench) -> Wrench {
-        Wrench::new(wrench.angular * (1.0 / self.moment), wrench.linear * (1.0 / self.force))
-    }
-
-    /// A wrench, in N·m and N again.
-    fn in_units(&self, wrench: Wrench) -> Wrench {
-        Wrench::new(wrench.angular * self.moment, wrench.linear * self.force)
-    }
-
-    /// How an element yields, by its diagonal.
-    fn compliance(&self, diagonal: Vec6) -> Vec6 {
-        Vec6::new(diagonal.angular * self.moment, diagonal.linear * (self.force / self.length))
-    }
-
-    /// A variation in the axes of a frame, its shift over the length.
-    fn shift(&self, variation: Vec6) -> Vec6 {
-        Vec6::new(variation.angular, variation.linear * (1.0 / self.length))
-    }
-
-    /// A stiffness, seen from axes of the same directions and origin.
-    fn stiffness(&self, stiffness: &Mat6) -> Mat6 {
-        let scales =
-            [[1.0 / self.moment, self.length / self.moment], [1.0 / self.force, self.length / self.force]];
-        let mut g = *stiffness;
-        for (blocks, scales) in g.blocks.iter_mut().zip(scales) {
-            for (block, scale) in blocks.iter_mut().zip(scales) {
-                *block = block.scaled(scale);
-            }
-        }
-        g
-    }
 }

@@ -7,7 +7,7 @@ use super::{Hold, Link, Nodal, acting};
 use crate::math::{Kernel, Mat3, Real, Register, Vec3, Vec6, Vector, Wrench};
 
 /// A pivot below this part of its block's diagonal is none.
-const SMALLEST_PIVOT: f64 = 1e-15;
+pub(super) const SMALLEST_PIVOT: f64 = 1e-15;
 
 /// Six rows of a block.
 pub(super) type Square<R> = [[R; 6]; 6];

@@ -35,8 +35,7 @@ impl Nodal {
         motion: &Motion,
         state: &mut Record,
     ) -> Option<Distance> {
-        self.axes = Axes::new(problem, state);
-        self.linearise_in_its_axes(problem, level, lent, Some(motion), state)
+        self.linearise_in(Axes::new(problem, state), problem, level, lent, motion, state)
     }
 
     /// The same in axes that several rods share.

@@ -6,7 +6,8 @@
 //! possible when it is its turn (minimum degree): a tree from its leaves inwards, without a block more than it has.
 
 use super::elimination::{
-    Square, add, on_far, pair, parts, product, subtract, subtract_dead_moment_slope, transposed,
+    SMALLEST_PIVOT, Square, add, on_far, pair, parts, product, subtract, subtract_dead_moment_slope,
+    transposed,
 };
 use super::{Axes, Inertial, Nodal, along_screw, grip_acts, out_of_balance};
 use crate::assembly::{Assembly, Body, Member, Ties};
@@ -16,8 +17,6 @@ use crate::statics::boundary::{displacements, displacements_slope};
 use core::ops::Range;
 use std::collections::BTreeSet;
 
-/// A pivot below this part of its block's diagonal is none.
-const SMALLEST_PIVOT: f64 = 1e-15;
 const NONE: Square<f64> = [[0.0; 6]; 6];
 const IDENTITY: Square<f64> = {
     let mut identity = NONE;
@@ -31,7 +30,7 @@ const IDENTITY: Square<f64> = {
 
 /// Where a body is, and what acts on it beside joints, in the network's axes; what the rods' [`Nodal`] is for their nodes.
 #[derive(Clone, Copy, Debug)]
-pub(crate) struct FreeFrame {
+struct FreeFrame {
     place: Vec3,
     load: Wrench,
     slope: Square<f64>,
@@ -76,8 +75,8 @@ pub(crate) struct Network {
     abouts: Vec<Vec3>,
     imbalance: Vec<[f64; 6]>,
     scale: Vec<f64>,
-    pub free: Vec<FreeFrame>,
-    pub free_steps: Vec<Vec6>,
+    free: Vec<FreeFrame>,
+    free_steps: Vec<Vec6>,
 }
 
 /// Which unknown follows from which.
@@ -561,13 +560,12 @@ impl Kernel for EliminateNetwork<'_> {
                 for (row, right) in lower.iter().zip(&mut right[*q]) {
                     *right -= dot(row, &x);
                 }
-                subtract_product(&mut diagonal[*q], &lower, &upper[*block]);
+                subtract(&mut diagonal[*q], &product(&lower, &upper[*block]));
             }
             for &(i, j, target) in &structure.pairs[p] {
                 let ((row, from), (column, to)) = (after[i], after[j]);
-                let (left, right) = (lower[from], upper[to]);
-                let target = if row < column { &mut upper[target] } else { &mut lower[target] };
-                subtract_product(target, &left, &right);
+                let taken = product(&lower[from], &upper[to]);
+                subtract(if row < column { &mut upper[target] } else { &mut lower[target] }, &taken);
             }
         }
         for p in (0..diagonal.len()).rev() {
@@ -622,16 +620,6 @@ fn reduce<const COLUMNS: usize>(factors: &Square<f64>, scales: &[f64; 6], x: &mu
             for c in 0..COLUMNS {
                 x[i][c] -= x[k][c] * factors[i][k];
             }
-        }
-    }
-}
-
-#[inline(always)]
-fn subtract_product(from: &mut Square<f64>, a: &Square<f64>, b: &Square<f64>) {
-    for (from, a) in from.iter_mut().zip(a) {
-        for c in 0..6 {
-            let term = |k: usize| b[k][c] * a[k];
-            from[c] -= (term(0) + term(1)) + (term(2) + term(3)) + (term(4) + term(5));
         }
     }
 }

@@ -1,0 +1,143 @@
+//! The kernel that linearises elements of order 2 with a diagonal law, several side by side.
+
+use super::super::march::Record;
+use super::{Axes, Link};
+use crate::element::{self, DiagonalPoint, Resistance, diagonal_resistance};
+use crate::math::{
+    Kernel, Lanes, Mat3, Pose, SimdLevel, Vec3, Vec6, Wide, Wrench, dispatch, larger, largest,
+};
+use crate::rod::Rod;
+
+/// How many elements are linearised side by side.
+const BATCH: usize = 8;
+type Side = Vec3<Lanes<BATCH>>;
+
+/// Elements of a rod of order 2 with a diagonal law, side by side, in the fixed axes.
+struct Elements {
+    compliance: Vec6<Side>,
+    rest: Vec6<Side>,
+    /// The wrenches that they carry through their far nodes.
+    wrench: Wrench<Side>,
+    /// The exponents between their frames.
+    x: Vec6<Side>,
+    /// The poses of their far nodes.
+    far: Pose<Side>,
+}
+
+impl Elements {
+    /// From the first on as many as there are lanes; past the last element it repeats that.
+    #[inline(always)]
+    fn gather(rod: &Rod, points: &[DiagonalPoint], axes: &Axes, state: &Record, first: usize) -> Self {
+        let [mut compliance, mut rest, mut wrench] = [Vec6::<Side>::zero(); 3];
+        let mut near = Mat3 { cols: [Side::zero(); 3] };
+        let mut far = Pose { rotation: near, position: Side::zero() };
+        let mut apart = Side::zero();
+        for i in 0..BATCH {
+            let e = (first + i).min(rod.elements() - 1);
+            let point = &points[e];
+            compliance.put(i, axes.compliance(point.compliance));
+            rest.put(i, axes.shift(point.rest));
+            wrench.put(i, axes.wrench(state.wrenches[e]));
+            let (a, b) = (&state.poses[e], &state.poses[e + 1]);
+            (0..3).for_each(|k| near.cols[k].put(i, a.rotation.cols[k]));
+            far.put(i, &axes.frame(b));
+            // Of the places as they are: round-off in others would be seen through the stiffness against stretching.
+            apart.put(i, (b.position - a.position) * (1.0 / axes.length));
+        }
+        let relative =
+            Pose { rotation: near.transpose() * far.rotation, position: near.transpose_mul(apart) };
+        Self { compliance, rest, wrench, x: logs(&relative), far }
+    }
+}
+
+/// Gives elements of order 2 with a diagonal law the strains that belong to what they carry.
+pub(crate) fn take_strains(rod: &Rod, points: &[DiagonalPoint], level: SimdLevel, state: &mut Record) {
+    dispatch(level, TakeStrains { rod, points, state });
+}
+
+struct TakeStrains<'a> {
+    rod: &'a Rod,
+    points: &'a [DiagonalPoint],
+    state: &'a mut Record,
+}
+
+impl Kernel for TakeStrains<'_> {
+    type Output = ();
+
+    #[inline(always)]
+    fn run(self) {
+        let Self { rod, points, state } = self;
+        let axes = Axes { origin: state.poses[0].position, ..Axes::default() };
+        for first in (0..rod.elements()).step_by(BATCH) {
+            let Elements { compliance, rest, wrench, x, .. } =
+                Elements::gather(rod, points, &axes, state, first);
+            let exponent = rest + compliance.scale(element::mean_wrench(x, wrench));
+            for i in 0..BATCH.min(rod.elements() - first) {
+                let e = first + i;
+                state.strains[e] = [exponent.lane(i) * (1.0 / rod.element_length(e)); 2];
+            }
+        }
+    }
+}
+
+/// Linearises the elements of a rod of order 2 with a diagonal law, several side by side.
+pub(super) struct Linearise<'a> {
+    pub rod: &'a Rod,
+    pub points: &'a [DiagonalPoint],
+    pub axes: &'a Axes,
+    pub lent: f64,
+    pub state: &'a mut Record,
+    pub links: &'a mut Vec<Link<f64>>,
+}
+
+impl Kernel for Linearise<'_> {
+    type Output = f64;
+
+    #[inline(always)]
+    fn run(self) -> f64 {
+        let Self { rod, points, axes, lent, state, links } = self;
+        let n = rod.elements();
+        let mut worst = 0.0;
+        for first in (0..n).step_by(BATCH) {
+            let Elements { compliance, rest, wrench, x, far } =
+                Elements::gather(rod, points, axes, state, first);
+            let share = Lanes::from_fn(|i| lent * rod.element_length((first + i).min(n - 1)) / rod.length());
+            let Resistance { stiffness, pull, slack } =
+                diagonal_resistance(compliance, rest, share, x, wrench, &far);
+            let carried = far.carry_wrench(wrench);
+            for i in 0..BATCH.min(n - first) {
+                let mut rows = [[0.0; 6]; 6];
+                for r in 0..6 {
+                    for c in 0..6 {
+                        let column = &stiffness[r / 3][c / 3].cols[c % 3];
+                        rows[r][c] = [&column.x, &column.y, &column.z][r % 3].0[i];
+                    }
+                }
+                worst = larger(worst, largest(&slack.lane(i).to_array()));
+                links.push(Link { stiffness: rows, carried: carried.lane(i), pull: pull.lane(i) });
+            }
+        }
+        worst
+    }
+}
+
+/// The logarithms of poses, in lanes.
+#[inline(always)]
+pub(crate) fn logs<R: Wide>(poses: &Pose<Vec3<R>>) -> Vec6<Vec3<R>> {
+    let mut logs = poses.log_of_small_turn();
+    if !R::all(logs.angular.x.at_most(f64::INFINITY)) {
+        log_large_turns(poses, &mut logs);
+    }
+    logs
+}
+
+/// Where a turn is too large for the short way.
+#[cold]
+#[inline(never)]
+fn log_large_turns<R: Wide>(poses: &Pose<Vec3<R>>, logs: &mut Vec6<Vec3<R>>) {
+    for lane in 0..R::LANES {
+        if logs.angular.x.number(lane).is_nan() {
+            logs.put(lane, poses.lane(lane).log());
+        }
+    }
+}
