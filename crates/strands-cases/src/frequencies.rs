@@ -1,6 +1,7 @@
 //! Rods and rings that vibrate a little, with their frequencies.
 
 use crate::table::Table;
+use crate::turning::Rotor;
 use crate::uniform::Uniform;
 use crate::vibration::{Vibration, VibrationError};
 use core::f64::consts::{PI, TAU};
@@ -104,7 +105,7 @@ impl VibrationRow {
 
 /// Every case of vibrations.
 pub fn all_vibrations() -> Vec<VibrationCase> {
-    vec![slender(), shearing(), waves(), tip_inertia(), rings(), hanging(), dispersion()]
+    vec![slender(), shearing(), waves(), tip_inertia(), rings(), hanging(), dispersion(), turning()]
 }
 
 const ALONG_X: Vec6 = Vec6::new(Vec3::ZERO, Vec3::X);
@@ -403,6 +404,22 @@ fn dispersion() -> VibrationCase {
         source: "Graff, Wave Motion in Elastic Solids, 1975",
         elements: 40,
         tolerance: 1e-6,
+        on_mesh: 5e-3,
+        rows: rows.collect(),
+    }
+}
+
+fn turning() -> VibrationCase {
+    let rows = Rotor::all().into_iter().map(|rotor| {
+        let build = move |elements: usize| Ok(rotor.pulled(elements)?.into());
+        VibrationRow::new(format!("turning at {}", rotor.turning), rotor.flap.into(), ALONG_Z, build)
+    });
+    VibrationCase {
+        name: "turning-vibrations",
+        title: "A cantilever that turns about its root and vibrates along the axis",
+        source: "Wright et al., J. Appl. Mech. 49:197–202, 1982; Galerkin's method",
+        elements: 200,
+        tolerance: 1e-5,
         on_mesh: 5e-3,
         rows: rows.collect(),
     }

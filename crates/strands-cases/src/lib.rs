@@ -26,6 +26,8 @@
 //!
 //! [`falling`] is a wire that swings under its weight, of which the motion is known.
 //!
+//! [`ropes`] hardly bend: one is skipped, and one falls from where it is folded.
+//!
 //! [`turning`] has rods that turn steadily or nearly as rigid bodies do, and a column that a following force makes flutter.
 //!
 //! [`wild`] has problems that nobody would pose, to find what breaks a solver.
@@ -47,6 +49,7 @@ mod motions;
 pub mod net;
 mod planar;
 mod pose;
+pub mod ropes;
 mod setup;
 mod spatial;
 mod spring;

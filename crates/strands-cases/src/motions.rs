@@ -118,6 +118,7 @@ impl MotionCase {
 /// Every case of motions.
 pub fn all_motions() -> Vec<MotionCase> {
     vec![
+        pulled_at_once(),
         soft_drop(),
         released_steel(),
         flying_plane(),
@@ -148,6 +149,42 @@ fn stretching(length: f64, stiffness: Stiffness, mass: f64, inertia: Vec3) -> Un
 /// At the origin with the tangent along x.
 fn along_x() -> Pose {
     Pose { rotation: Mat3::from_cols(Vec3::Y, Vec3::Z, Vec3::X), position: Vec3::ZERO }
+}
+
+fn pulled_at_once() -> MotionCase {
+    const LENGTH: f64 = 0.6;
+    const STRAIN: f64 = 1e-3;
+    let rod = Uniform::round(LENGTH, 0.006, [2.5e6, 2.5e6 / 3.0], 1200.0);
+    // The time that a wave takes from end to end. Both the end's way and the centre's go back as they came after two of it.
+    let across = LENGTH * (rod.mass / rod.stiffness.axial).sqrt();
+    let moments = [0.5, 1.0, 1.5, 2.5, 3.0, 3.5, 4.5, 5.5, 6.5, 7.5].map(|waves: f64| {
+        let since: f64 = 2.0 - (2.0 - waves.rem_euclid(4.0)).abs();
+        let mean = if since <= 1.0 { 0.5 * since * since } else { since - 0.5 - 0.5 * (since - 1.0).powi(2) };
+        let moved = |by: f64| Vec3::Z * (LENGTH * STRAIN * by);
+        let places = [Vec3::ZERO, Vec3::Z * LENGTH + moved(since), Vec3::Z * (0.5 * LENGTH) + moved(mean)];
+        Moment { time: waves * across, places }
+    });
+    MotionCase {
+        name: "pulled-at-once",
+        title: "A rod that is pulled at once: its end goes twice as far as at rest, and back",
+        source: "Graff, Wave Motion in Elastic Solids, 1975, ch. 2",
+        elements: 100,
+        integrator: Integrator::Midpoint,
+        // So that all times that are known are ends of steps.
+        time_step: across / 200.0,
+        on_mesh: 0.01 * LENGTH * STRAIN,
+        tolerance: 0.01 * LENGTH * STRAIN,
+        moments: moments.into(),
+        begin: |elements, settings| {
+            let rod = Uniform::round(LENGTH, 0.006, [2.5e6, 2.5e6 / 3.0], 1200.0);
+            let force = Wrench::new(Vec3::ZERO, Vec3::Z * (STRAIN * rod.stiffness.axial));
+            let rod = rod.rod(Pose::IDENTITY, Vec3::ZERO, elements)?;
+            let pull = PointLoad { at: LENGTH, wrench: force, frame: Frame::World };
+            let loads = NodalLoads::none(&rod).with_point(&rod, &pull)?;
+            Ok(Simulation::new(Problem { loads, ..Problem::cantilever(rod) }, settings, Start::Rest)?)
+        },
+        act: nothing,
+    }
 }
 
 fn soft_drop() -> MotionCase {

@@ -54,6 +54,16 @@ pub const TUBE: Swinging = Swinging {
     density: 1000.0,
 };
 
+/// A hair of 0.03 mm radius and a metre: it hardly bends its own weight, and cracks as a whip where it comes round.
+pub const LONG_HAIR: Swinging = Swinging {
+    name: "long hair",
+    length: 1.0,
+    section: Section::Circle { radius: 0.03e-3 },
+    youngs_modulus: 3e9,
+    shear_modulus: 3e9 / 2.8,
+    density: 1300.0,
+};
+
 /// A steel wire of 0.25 mm radius and 0.8 m: its tip falls by three quarters of its length.
 pub const LONG_WIRE: Swinging = Swinging {
     name: "long steel wire",

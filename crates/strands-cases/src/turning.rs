@@ -28,10 +28,10 @@ fn along_x_turned(angle: f64) -> Pose {
 pub struct Rotor {
     /// How fast it turns, rad/s.
     pub turning: f64,
-    /// The circular frequencies of its first mode along the axis, and across it as seen from the rotor, rad/s: Wright et al., J. Appl. Mech.
-    /// 49:197–202, 1982, and by Galerkin's method to all digits.
-    pub flap: f64,
-    /// The same across the axis.
+    /// The circular frequencies of its first three modes along the axis, rad/s: Wright et al., J. Appl. Mech. 49:197–202, 1982, and by
+    /// Galerkin's method to all digits.
+    pub flap: [f64; 3],
+    /// That of the first across the axis, as seen from the rotor.
     pub lag: f64,
 }
 
@@ -41,7 +41,7 @@ impl Rotor {
         let table = Table::read(include_str!("../data/rotating_cantilever.csv"));
         let records = table.records().map(|record| Self {
             turning: record.number("turning"),
-            flap: record.number("flap1"),
+            flap: ["flap1", "flap2", "flap3"].map(|column| record.number(column)),
             lag: record.number("lag1"),
         });
         records.collect()

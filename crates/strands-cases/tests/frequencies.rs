@@ -73,3 +73,8 @@ fn chains_and_cables_swing() {
 fn waves_in_thick_rods_have_their_dispersion() {
     check("dispersion");
 }
+
+#[test]
+fn a_cantilever_that_turns_vibrates_faster_in_all_modes() {
+    check("turning-vibrations");
+}

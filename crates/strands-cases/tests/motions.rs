@@ -20,6 +20,11 @@ fn check(name: &str) {
 }
 
 #[test]
+fn a_rod_is_pulled_at_once() {
+    check("pulled-at-once");
+}
+
+#[test]
 fn a_soft_cantilever_falls() {
     check("soft-drop");
 }

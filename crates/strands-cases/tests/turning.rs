@@ -42,7 +42,7 @@ fn a_cantilever_that_turns_vibrates_faster() {
             Integrator::Sdirk4,
             Integrator::GeneralizedAlpha { spectral_radius: 0.5 },
         ] {
-            vibrates_faster(&rotor, Vec3::Z, rotor.flap, integrator);
+            vibrates_faster(&rotor, Vec3::Z, rotor.flap[0], integrator);
         }
     }
 }
@@ -51,7 +51,7 @@ fn vibrates_faster(rotor: &Rotor, direction: Vec3, frequency: f64, integrator: I
     let spin = Vec3::Z * rotor.turning;
     let period = TAU / frequency;
     let time_step = period / 400.0;
-    let mode = slowest(rotor.pulled(50).unwrap(), rotor.flap, direction);
+    let mode = slowest(rotor.pulled(50).unwrap(), rotor.flap[0], direction);
     let mut simulation = simulated(rotor.turned(50, 3.0 * period).unwrap(), integrator, time_step);
     let steady = turning(&simulation, spin, Vec3::ZERO);
     let started: Vec<Vec6> = steady.iter().zip(&mode).map(|(v, mode)| *v + *mode * 3e-2).collect();

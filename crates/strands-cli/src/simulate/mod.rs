@@ -9,9 +9,10 @@ use std::time::Instant;
 use indicatif::ProgressBar;
 use strands::assembly::{Member, Strand};
 use strands::dynamics::{Settings, Simulation, SimulationError, Start};
+use strands::rod::Kinematics;
 use strands::statics::Reaction;
 use strands_scene::write::{End, Frame, FrameEnergy, MovedBody, MovedRod, Ran, motion_json};
-use strands_scene::{MeshChoice, Model, ModelBody, OUTPUT_RATE, read_state, state_json};
+use strands_scene::{MeshChoice, Model, ModelBody, ModelRod, OUTPUT_RATE, read_state, state_json};
 
 use crate::args::Simulate;
 use crate::source::Source;
@@ -46,6 +47,7 @@ struct Run {
 pub fn run(options: &Simulate) -> Result<(), Failure> {
     let outputs: Vec<(&PathBuf, Format)> =
         options.output.iter().map(|path| Ok((path, Format::of(path)?))).collect::<Result<_, Failure>>()?;
+    keep_apart(options)?;
     let mut source = source::read(&options.scene)?;
     source.text =
         overrides::apply(&source.text, source.is_json(), &options.overrides).map_err(Failure::bad)?;
@@ -77,6 +79,22 @@ pub fn run(options: &Simulate) -> Result<(), Failure> {
         End::Interrupted => Err(Failure::Interrupted),
         End::Finished => Ok(()),
     }
+}
+
+/// Sees that no file is written over the scene, or twice.
+fn keep_apart(options: &Simulate) -> Result<(), Failure> {
+    let place = |path: &Path| std::fs::canonicalize(path).unwrap_or_else(|_| path.to_owned());
+    let mut taken = vec![place(options.scene.as_ref())];
+    for path in options.output.iter().chain(&options.save) {
+        if taken.contains(&place(path)) {
+            let path = path.display();
+            return Err(Failure::bad(format!(
+                "{path}: this would be written over the scene, or twice; give each its own name"
+            )));
+        }
+        taken.push(place(path));
+    }
+    Ok(())
 }
 
 impl Plan {
@@ -150,7 +168,7 @@ fn stepped(model: &Model, plan: &Plan, simulation: &mut Simulation, bar: &Progre
         let step = match simulation.step_towards(due) {
             Ok(step) => step,
             Err(failure) => {
-                run.end = End::Failed(format!("{failure}; a shorter time_step may be solved"));
+                run.end = End::Failed(format!("{failure}; {}", mend(model, simulation)));
                 return run;
             }
         };
@@ -169,6 +187,33 @@ fn stepped(model: &Model, plan: &Plan, simulation: &mut Simulation, bar: &Progre
         }
     }
     run
+}
+
+/// An element that is bent by more than this, rad, stands for too much of its rod.
+const SHARP: f64 = 1.0;
+
+/// What may help where a step cannot be made.
+fn mend(model: &Model, simulation: &Simulation) -> String {
+    let (assembly, state) = (simulation.assembly(), simulation.state());
+    let bend = |rod: usize| {
+        let pairs = state.poses[assembly.nodes(rod)].windows(2);
+        pairs.map(|pair| pair[0].rotation.turn_to(&pair[1].rotation).norm()).fold(0.0, f64::max)
+    };
+    let bends = model.rods.iter().enumerate().map(|(rod, of)| (of, bend(rod)));
+    let sharpest = bends.max_by(|(_, a), (_, b)| a.total_cmp(b)).filter(|(_, bend)| *bend > SHARP);
+    if let Some((rod, bend)) = sharpest {
+        return format!(
+            "an element of rod `{}` is bent by {bend:.1} rad: give it more `elements`, or more `damping` to its material",
+            rod.name
+        );
+    }
+    let inextensible = |rod: &&ModelRod| rod.problem.rod.kinematics() == Kinematics::Kirchhoff;
+    match model.rods.iter().find(inextensible) {
+        Some(rod) => {
+            format!("a longer time_step may be solved, or kinematics = \"cosserat\" for rod `{}`", rod.name)
+        }
+        None => "a shorter time_step may be solved".to_owned(),
+    }
 }
 
 /// How all moves now.

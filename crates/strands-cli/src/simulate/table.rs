@@ -43,13 +43,14 @@ pub fn table(model: &Model, settings: &Settings, frames: &[Frame], ran: &Ran) ->
         );
     }
     if ran.steps > 0 {
+        let step = (frames[frames.len() - 1].time - frames[0].time) / ran.steps as f64;
         let _ = writeln!(
             out,
             "  {} steps of {} by {}, {} a step: {:.1} times as fast as real time",
             ran.steps,
-            engineering(settings.time_step, "s"),
+            engineering(step, "s"),
             settings.integrator.name(),
-            engineering(settings.time_step / ran.real_time_factor, "s"),
+            engineering(step / ran.real_time_factor, "s"),
             ran.real_time_factor
         );
     }

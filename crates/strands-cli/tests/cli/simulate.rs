@@ -98,6 +98,15 @@ fn what_cannot_be_simulated_is_said() {
         assert_eq!((run.code, run.out.as_str()), (1, ""), "{set}");
         assert!(run.err.contains(said), "{}", run.err);
     }
+    let scene = folder("simulate-over").join("scene.json");
+    let scene = scene.to_str().unwrap();
+    std::fs::write(scene, strands(&["new", "cantilever"]).out).unwrap();
+    for over in
+        [["--save", scene, "-o", "a.csv"], ["-o", scene, "-o", "a.csv"], ["-o", "a.csv", "-o", "a.csv"]]
+    {
+        let run = strands(&[["simulate", scene].as_slice(), &over].concat());
+        assert!(run.code == 1 && run.err.contains("written over the scene, or twice"), "{}", run.err);
+    }
     let run = strands(&["simulate", "cantilever.toml", "-o", "fall.vtp"]);
     assert!(run.code == 1 && run.err.contains(".json .csv .npz .pvd .usda .glb"), "{}", run.err);
 }

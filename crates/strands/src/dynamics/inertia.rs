@@ -69,11 +69,13 @@ impl Kernel for TakeInertia<'_> {
                 let per_shift = -per_momentum.0[lane] * per_rate.0[lane] * mass.0[lane];
                 stage.inertial[i] = Inertial {
                     exerts: exerts.lane(lane),
-                    by_turn: Mat3 { cols: by_turn.cols.map(|column| column.lane(lane)) },
-                    by_shift: [
-                        Mat3::hat(stage.known_momenta[i].linear).scaled(per_rate.0[lane]),
-                        Mat3::IDENTITY.scaled(per_shift),
-                    ],
+                    by_turn: Mat3::from_cols(
+                        by_turn.cols[0].lane(lane),
+                        by_turn.cols[1].lane(lane),
+                        by_turn.cols[2].lane(lane),
+                    ),
+                    lever: stage.known_momenta[i].linear * per_rate.0[lane],
+                    by_shift: Mat3::diagonal(Vec3::new(per_shift, per_shift, per_shift)),
                 };
             }
         }

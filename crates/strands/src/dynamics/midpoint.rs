@@ -75,10 +75,8 @@ impl Stage {
             self.inertial[i] = Inertial {
                 exerts: change * (-per_step) - mean * lost,
                 by_turn: by_turn.scaled(-per_step - 0.5 * lost),
-                by_shift: [
-                    Mat3::ZERO,
-                    Mat3::IDENTITY.scaled(-mass * per_step * (4.0 * per_step + 2.0 * lost)),
-                ],
+                lever: Vec3::ZERO,
+                by_shift: Mat3::IDENTITY.scaled(-mass * per_step * (4.0 * per_step + 2.0 * lost)),
             };
         }
         self.take_drag(frames, poses, resistance);

@@ -4,6 +4,7 @@
 //! once, so a step may be as long as the motion that is looked for allows, however stiff the rods are against stretching. Inertia is lumped at the nodes.
 //! Nothing is damped but by what is asked for, and by the [`Integrator`] where its documentation says so.
 
+mod by_error;
 mod energy;
 mod failure;
 mod holds;
@@ -11,6 +12,7 @@ mod inertia;
 mod integrator;
 mod midpoint;
 mod newton;
+mod piece;
 mod stage;
 mod start;
 mod state;
@@ -45,8 +47,8 @@ pub struct Settings {
     pub tolerance: f64,
     /// How many Newton iterations a stage may take.
     pub max_iterations: usize,
-    /// Whether a stage takes that many and is then as good as it is, for steps of bounded cost: its residual is in the [`Step`]. Otherwise a stage that is
-    /// not solved by then is a failure.
+    /// Whether a stage takes that many and is then as good as it is, for steps of bounded cost: its residual is in the [`Step`]. Where more than a tenth is
+    /// left over, the step is made once more by backward Euler's method, and then is a failure. Otherwise a stage that is not solved by then is one.
     pub bounded: bool,
     /// How fast everything loses its momentum, 1/s.
     pub mass_damping: f64,
@@ -77,7 +79,7 @@ pub struct Step {
     pub iterations: usize,
     /// The largest residual of its stages.
     pub residual: f64,
-    /// In how many pieces it was made, or, where its error chose it, how often it was tried.
+    /// In how many pieces it was made; where its error chose it or its cost is bounded, how often it was tried.
     pub pieces: usize,
 }
 
@@ -131,6 +133,8 @@ struct Work {
     inertia: Vec<NodeInertia>,
     lengths: Vec<f64>,
     stage: Stage,
+    /// The state before the step.
+    before: State,
     /// The frames of the stage.
     poses: Vec<Pose>,
     /// How long the step is, s.
@@ -175,7 +179,9 @@ impl Simulation {
             let rods = rods.iter().map(|rod| RodSystem::new(&assembly, *rod)).collect();
             Group { rods, bodies, network }
         });
+        let state = State::at_rest(&assembly, assembly.rest_poses(), settings.time_step);
         let work = Work {
+            before: state.clone(),
             level: SimdLevel::detect(),
             groups: groups.collect(),
             ties,
@@ -190,7 +196,6 @@ impl Simulation {
             viscous: Vec::new(),
             history: Vec::new(),
         };
-        let state = State::at_rest(&assembly, assembly.rest_poses(), settings.time_step);
         let first = assembly.strands.first().map(|strand| strand.problem.rod.description().base.position);
         let origin = first.unwrap_or(Vec3::ZERO);
         let mut simulation = Self { assembly, settings, state, origin, work };

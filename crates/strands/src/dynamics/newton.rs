@@ -11,6 +11,9 @@ use core::ops::Range;
 /// Round-off of a frame, with room, over that of a number.
 const ROUND_OFF: f64 = 4.0;
 
+/// A stage of bounded cost that leaves more than this over is of no use.
+const USABLE: f64 = 0.1;
+
 /// In a stage so long, s, nothing accelerates.
 const LONG: f64 = 1e9;
 
@@ -339,7 +342,9 @@ impl Simulation {
             }
             let spent = iterations == settings.max_iterations;
             let solved = residual <= given.tolerance;
-            if spent && (settings.bounded || solved) || solved && last && !settings.bounded {
+            if spent && (settings.bounded && residual <= USABLE || solved)
+                || solved && last && !settings.bounded
+            {
                 break residual;
             }
             last |= solved;

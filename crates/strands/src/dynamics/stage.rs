@@ -57,7 +57,8 @@ impl Stage {
                 *strain = x;
             }
         }
-        let none = Inertial { exerts: Wrench::ZERO, by_turn: Mat3::ZERO, by_shift: [Mat3::ZERO; 2] };
+        let none =
+            Inertial { exerts: Wrench::ZERO, by_turn: Mat3::ZERO, lever: Vec3::ZERO, by_shift: Mat3::ZERO };
         self.inertial.resize(frames, none);
         self.drags.clear();
         self.drags.resize(frames, Vec3::ZERO);
@@ -182,7 +183,7 @@ impl Stage {
             let (force, by_velocity) = air(&drag, poses[at].rotation.cols[2], velocity);
             self.drags[i] = force * lengths[at];
             self.inertial[i].exerts.linear += self.drags[i];
-            let by_shift = &mut self.inertial[i].by_shift[1];
+            let by_shift = &mut self.inertial[i].by_shift;
             *by_shift = *by_shift + by_velocity.scaled(lengths[at] * per_rate);
         }
     }

@@ -1,32 +1,14 @@
-//! One step in time: its stages, and what becomes of a step that cannot be made at once.
+//! One step in time, and what becomes of one that cannot be made at once.
 
-use super::energy::Power;
 use super::holds::Held;
-use super::integrator::{GeneralizedAlpha, IMPLICIT_EULER, Integrator, RungeKutta, SDIRK4, SDIRK4_ERROR};
-use super::{Means, Past, Simulation, Step, StepFailure, Taken, Work};
-use crate::math::{Pose, Vec6, Wrench, larger};
+use super::piece::{Piece, WHOLE};
+use super::{Integrator, Past, Simulation, State, Step, StepFailure, Taken};
+use crate::math::{Pose, larger};
 
 /// Into so many pieces is a step cut that was not solved, one after the other until it is.
 const PIECES: [usize; 3] = [4, 16, 64];
-/// A step that is chosen by its error is so much shorter than that would allow, and never so many times longer or shorter than the last.
-const SAFETY: f64 = 0.9;
-const LONGER: f64 = 4.0;
-const SHORTER: f64 = 0.2;
-/// One that is made again is at most so long: where much vibrates faster than the steps, their error falls slowly with their length.
-const AGAIN: f64 = 0.7;
-/// Steps are not shortened below this part of the longest for their error.
-const SHORTEST: f64 = 1e-9;
-/// Where a method needs rates to begin with, two steps of backward Euler's method find them, each this part of a step long.
-const BEGINNING: f64 = 1e-4;
-
-/// A part of a step: where it begins and how long it is, over the whole.
-#[derive(Clone, Copy)]
-struct Piece {
-    begin: f64,
-    length: f64,
-}
-
-const WHOLE: Piece = Piece { begin: 0.0, length: 1.0 };
+/// Where an element bends by more in a step, rad, the step does not follow it, and is cut: methods that look back would gain energy.
+const FOLLOWED: f64 = 0.25;
 
 impl Simulation {
     /// Makes one step: of [`Settings::time_step`](super::Settings::time_step), or one that [`Settings::local_error`](super::Settings::local_error)
@@ -77,25 +59,27 @@ impl Simulation {
     }
 
     fn whole_or_in_pieces(&mut self, held: &Held) -> Result<Step, StepFailure> {
-        let integrator = self.settings.integrator;
-        let failure = match self.piece(integrator, held, WHOLE) {
-            Ok(taken) => return Ok(self.report(taken, self.work.step, 1)),
-            Err(failure) => failure,
+        let (integrator, bounded) = (self.settings.integrator, self.settings.bounded);
+        self.work.before.clone_from(&self.state);
+        let whole = self.piece(integrator, held, WHOLE);
+        let failure = match whole {
+            Ok(taken) if bounded || self.follows() => return Ok(self.report(taken, self.work.step, 1)),
+            Ok(_) => None,
+            Err(failure) => Some(failure),
         };
-        let before = self.state.clone();
+        let before = self.work.before.clone();
+        self.state.clone_from(&before);
+        if bounded {
+            return self.damped(held, before).map_err(|worse| failure.unwrap_or(worse));
+        }
         // A piece cannot look back on steps of another length.
         let alone = match integrator {
             Integrator::Bdf2 | Integrator::GeneralizedAlpha { .. } => Integrator::Sdirk4,
             other => other,
         };
         for pieces in PIECES {
-            let length = 1.0 / pieces as f64;
-            let mut taken = Taken::default();
-            let all = (0..pieces).try_for_each(|piece| {
-                taken.add(self.piece(alone, held, Piece { begin: piece as f64 * length, length })?);
-                Ok::<(), StepFailure>(())
-            });
-            if all.is_ok() {
+            let finest = pieces == PIECES[PIECES.len() - 1];
+            if let Some(taken) = self.pieces(alone, held, pieces, finest) {
                 // Not a sum of pieces.
                 self.state.time = before.time + self.work.step;
                 self.look_back_on(integrator, before.poses, before.momenta, pieces);
@@ -103,7 +87,53 @@ impl Simulation {
             }
             self.state.clone_from(&before);
         }
-        Err(failure)
+        match failure {
+            Some(failure) => Err(failure),
+            // Solved, if not followed.
+            None => {
+                Ok(self.piece(integrator, held, WHOLE).map(|taken| self.report(taken, self.work.step, 1))?)
+            }
+        }
+    }
+
+    /// Makes a step in pieces; `None` where one is not solved, or does not follow what bends.
+    fn pieces(&mut self, integrator: Integrator, held: &Held, pieces: usize, finest: bool) -> Option<Taken> {
+        let length = 1.0 / pieces as f64;
+        let mut taken = Taken::default();
+        for piece in 0..pieces {
+            taken.add(self.piece(integrator, held, Piece { begin: piece as f64 * length, length }).ok()?);
+            if !finest && !self.follows() {
+                return None;
+            }
+        }
+        Some(taken)
+    }
+
+    /// Makes a step of bounded cost once more, by the method that takes the energy out of what it does not follow.
+    fn damped(&mut self, held: &Held, before: State) -> Result<Step, StepFailure> {
+        let taken = self.piece(Integrator::ImplicitEuler, held, WHOLE)?;
+        match self.settings.integrator {
+            Integrator::Bdf2 => {
+                self.state.past = Past::Before { poses: before.poses, momenta: before.momenta };
+            }
+            Integrator::GeneralizedAlpha { .. } | Integrator::Sdirk4 => self.remember_rates(),
+            Integrator::ImplicitEuler | Integrator::Midpoint => {}
+        }
+        Ok(self.report(taken, self.work.step, 2))
+    }
+
+    /// Whether no element has bent by too much since the step, or the piece of it, began.
+    fn follows(&self) -> bool {
+        let (before, now) = (&self.work.stage.base, &self.state.poses);
+        let seen = |near: &Pose, far: &Pose| near.rotation.transpose_mul(far.rotation.cols[2]);
+        (0..self.assembly.strands.len()).all(|rod| {
+            let nodes = self.assembly.nodes(rod);
+            let pairs = now[nodes.clone()].windows(2).zip(before[nodes].windows(2));
+            pairs.into_iter().all(|(now, before)| {
+                let bent = seen(&now[0], &now[1]) - seen(&before[0], &before[1]);
+                bent.dot(bent) <= FOLLOWED * FOLLOWED
+            })
+        })
     }
 
     /// Makes a step of a length, or fails.
@@ -115,311 +145,8 @@ impl Simulation {
         made
     }
 
-    /// Makes a step as long as its error allows, by the method of order 4 and the one of order 3 in it.
-    fn step_by_error(&mut self, allowed: f64, longest: f64) -> Result<Step, StepFailure> {
-        let before = self.state.clone();
-        let mut iterations = 0;
-        let longest = longest.min(self.settings.time_step);
-        // One that is nearly over is divided evenly.
-        let mut step = if before.next_step < longest && 2.0 * before.next_step > longest {
-            0.5 * longest
-        } else {
-            longest.min(before.next_step)
-        };
-        for tries in 1.. {
-            let made = self.undivided(Integrator::Sdirk4, step);
-            let error = self.local_error() / allowed;
-            let grows = match &made {
-                Ok(_) => (SAFETY / error.powf(0.25)).clamp(SHORTER, LONGER),
-                Err(_) => SHORTER,
-            };
-            match made {
-                Ok(taken) if error <= 1.0 => {
-                    // One like that which was just too long is not tried again at once.
-                    let grows = if tries == 1 { grows } else { grows.min(1.0) };
-                    let cut = step < before.next_step && tries == 1;
-                    self.state.next_step =
-                        if cut { before.next_step.max(step * grows) } else { step * grows };
-                    iterations += taken.iterations;
-                    return Ok(self.report(Taken { iterations, ..taken }, step, tries));
-                }
-                Err(failure) if step < SHORTEST * self.settings.time_step => {
-                    self.state = before;
-                    return Err(failure);
-                }
-                Ok(taken) if step < SHORTEST * self.settings.time_step => {
-                    self.state.clone_from(&before);
-                    let history = vec![taken.residual, error];
-                    return Err(StepFailure::NotConverged { time: before.time, step, history });
-                }
-                made => iterations += made.map_or(0, |taken| taken.iterations),
-            }
-            self.state.clone_from(&before);
-            step *= grows.min(AGAIN);
-        }
-        unreachable!("steps are shortened until they are too short")
-    }
-
-    /// How much a step of the method of order 4 moves frames otherwise than the one of order 3 in it: turns in rad, and shifts over the longest rod's
-    /// length.
-    fn local_error(&self) -> f64 {
-        let frames = self.state.poses.len();
-        let size = self.assembly.size();
-        let rates = &self.work.coordinate_rates;
-        let error = (0..frames).map(|frame| {
-            let terms = SDIRK4_ERROR.iter().enumerate();
-            let apart = terms.fold(Vec6::ZERO, |sum, (stage, weight)| {
-                sum + rates.get(stage * frames + frame).map_or(Vec6::ZERO, |rate| *rate * *weight)
-            });
-            let shift = if size > 0.0 { apart.linear.norm() / size } else { apart.linear.norm() };
-            larger(apart.angular.norm(), shift)
-        });
-        error.fold(0.0, larger) * self.work.step
-    }
-
-    fn report(&self, taken: Taken, seconds: f64, pieces: usize) -> Step {
+    pub(super) fn report(&self, taken: Taken, seconds: f64, pieces: usize) -> Step {
         let Taken { iterations, residual } = taken;
         Step { time: self.state.time, seconds, iterations, residual, pieces }
-    }
-
-    fn piece(&mut self, integrator: Integrator, held: &Held, piece: Piece) -> Result<Taken, StepFailure> {
-        match integrator {
-            Integrator::ImplicitEuler => self.runge_kutta(&IMPLICIT_EULER, held, piece),
-            Integrator::Sdirk4 => self.sdirk4(held, piece),
-            Integrator::Midpoint => self.midpoint(held, piece.begin + 0.5 * piece.length, piece.length),
-            Integrator::Bdf2 | Integrator::GeneralizedAlpha { .. } if !self.looks_back(integrator) => {
-                let (poses, momenta) = (self.state.poses.clone(), self.state.momenta.clone());
-                let taken = self.sdirk4(held, piece)?;
-                self.look_back_on(integrator, poses, momenta, 1);
-                Ok(taken)
-            }
-            Integrator::Bdf2 => self.bdf2(held),
-            Integrator::GeneralizedAlpha { spectral_radius } => self.generalized_alpha(spectral_radius, held),
-        }
-    }
-
-    /// Whether there is what the integrator looks back on.
-    fn looks_back(&self, integrator: Integrator) -> bool {
-        match self.state.past {
-            Past::Before { .. } => integrator == Integrator::Bdf2,
-            Past::Rates { means: Some(_), .. } => matches!(integrator, Integrator::GeneralizedAlpha { .. }),
-            Past::None | Past::Rates { means: None, .. } => false,
-        }
-    }
-
-    /// After a step of the method of order 4, in so many pieces, gives the integrator what it looks back on.
-    fn look_back_on(
-        &mut self,
-        integrator: Integrator,
-        poses: Vec<Pose>,
-        momenta: Vec<Wrench>,
-        pieces: usize,
-    ) {
-        let Self { state, work, .. } = self;
-        match integrator {
-            Integrator::Bdf2 => state.past = Past::Before { poses, momenta },
-            Integrator::GeneralizedAlpha { spectral_radius } => {
-                let Past::Rates { momentum, strain, means } = &mut state.past else { return };
-                // How long ago the rates were as their means are, over the piece (Arnold, Brüls & Cardona 2015).
-                let GeneralizedAlpha { alpha_m, alpha_f, .. } = GeneralizedAlpha::new(spectral_radius);
-                let ago = (alpha_f - alpha_m) * pieces as f64;
-                let earlier = |now: Vec6, before: Vec6| now + (before - now) * ago;
-                let Work { stage, coordinate_rates, momentum_rates, strain_rates, .. } = work;
-                let velocity = stage.coordinate_rates.iter().zip(coordinate_rates).enumerate();
-                let velocity = velocity
-                    .map(|(i, (now, before))| stage.turned_with(i, &state.poses[i], earlier(*now, *before)));
-                let mean = |now: &[Vec6], before: &[Vec6]| -> Vec<Vec6> {
-                    now.iter().zip(before).map(|(now, before)| earlier(*now, *before)).collect()
-                };
-                *means = Some(Means {
-                    velocity: velocity.collect(),
-                    momentum: mean(momentum, momentum_rates),
-                    strain: mean(strain, strain_rates),
-                });
-            }
-            Integrator::ImplicitEuler | Integrator::Midpoint | Integrator::Sdirk4 => {}
-        }
-    }
-
-    /// A piece of a step of the method of order 4, which begins with the rates that the last one ended with.
-    fn sdirk4(&mut self, held: &Held, piece: Piece) -> Result<Taken, StepFailure> {
-        if matches!(self.state.past, Past::Rates { .. }) {
-            return self.with_rates(held, piece);
-        }
-        // Velocities may jump now, where a support begins to move, and what holds it then exerts nearly an impulse: that is what the first short step is
-        // for. The second one has what acts thereafter.
-        let before = self.state.clone();
-        let (mut taken, mut rest) = (Taken::default(), piece);
-        let mut all = || {
-            for _ in 0..2 {
-                let short = Piece { begin: rest.begin, length: BEGINNING * piece.length };
-                taken.add(self.runge_kutta(&IMPLICIT_EULER, held, short)?);
-                rest = Piece { begin: rest.begin + short.length, length: rest.length - short.length };
-            }
-            self.remember_rates();
-            taken.add(self.with_rates(held, rest)?);
-            Ok(taken)
-        };
-        let made = all();
-        made.map_err(|failure: StepFailure| {
-            self.state = before;
-            failure.in_step(self.state.time, self.work.step)
-        })
-    }
-
-    fn with_rates(&mut self, held: &Held, piece: Piece) -> Result<Taken, StepFailure> {
-        let taken = self.runge_kutta(&SDIRK4, held, piece)?;
-        self.remember_rates();
-        Ok(taken)
-    }
-
-    /// Keeps the rates of the stage that was solved last.
-    fn remember_rates(&mut self) {
-        let Self { state, work: Work { stage, .. }, .. } = self;
-        if !matches!(state.past, Past::Rates { .. }) {
-            state.past = Past::Rates { momentum: Vec::new(), strain: Vec::new(), means: None };
-        }
-        if let Past::Rates { momentum, strain, means } = &mut state.past {
-            momentum.clear();
-            momentum.extend(stage.momentum_rates());
-            strain.clone_from(&stage.strain_rates);
-            *means = None;
-        }
-    }
-
-    fn runge_kutta(&mut self, method: &RungeKutta, held: &Held, piece: Piece) -> Result<Taken, StepFailure> {
-        let h = self.work.step * piece.length;
-        let (frames, elements) = (self.state.poses.len(), self.state.wrenches.len());
-        let (mut taken, mut lost, mut power) = (Taken::default(), Power::default(), Power::default());
-        let mut weights = method.weights();
-        let Self { state, work: Work { coordinate_rates, momentum_rates, strain_rates, .. }, .. } = self;
-        coordinate_rates.clear();
-        momentum_rates.clear();
-        strain_rates.clear();
-        if let (true, Past::Rates { momentum, strain, .. }) = (method.explicit, &state.past) {
-            coordinate_rates.extend_from_slice(&state.velocities);
-            momentum_rates.extend_from_slice(momentum);
-            strain_rates.extend_from_slice(strain);
-            lost.add(state.power, weights.next().unwrap_or_default() * h);
-        }
-        self.begin();
-        for (number, before) in method.before.iter().enumerate() {
-            let Work { stage, coordinate_rates, momentum_rates, strain_rates, .. } = &mut self.work;
-            stage.set_up(method.diagonal * h, &self.state);
-            for (j, a) in before.iter().enumerate() {
-                let (of_frames, of_elements) =
-                    (j * frames..(j + 1) * frames, j * elements..(j + 1) * elements);
-                let (coordinates, momenta) =
-                    (&coordinate_rates[of_frames.clone()], &momentum_rates[of_frames]);
-                stage.add_history(a * h, coordinates, momenta, &strain_rates[of_elements]);
-            }
-            held.at(piece.begin + method.time(number) * piece.length, self);
-            let Work { stage, coordinate_rates, poses, .. } = &mut self.work;
-            match coordinate_rates.len().checked_sub(frames) {
-                None => stage.predict(&self.state.velocities, poses),
-                Some(last) => stage.predict(&coordinate_rates[last..], poses),
-            }
-            taken.add(self.solve_stage()?);
-            let Work { stage, coordinate_rates, momentum_rates, strain_rates, .. } = &mut self.work;
-            coordinate_rates.extend_from_slice(&stage.coordinate_rates);
-            strain_rates.extend_from_slice(&stage.strain_rates);
-            momentum_rates.extend(stage.momentum_rates());
-            power = self.power();
-            lost.add(power, weights.next().unwrap_or_default() * h);
-        }
-        self.state.power = power;
-        self.take(lost, h);
-        Ok(taken)
-    }
-
-    fn bdf2(&mut self, held: &Held) -> Result<Taken, StepFailure> {
-        let h = self.work.step;
-        self.begin();
-        let Work { stage, viscous, .. } = &mut self.work;
-        stage.set_up(2.0 / 3.0 * h, &self.state);
-        if let Past::Before { poses, momenta } = &self.state.past {
-            stage.look_back(poses, momenta, viscous);
-        }
-        held.at(1.0, self);
-        let Work { stage, poses, .. } = &mut self.work;
-        stage.predict(&self.state.velocities, poses);
-        let taken = self.solve_stage()?;
-        let lost = self.trapezoid(h);
-        let state = &mut self.state;
-        if let Past::Before { poses, momenta } = &mut state.past {
-            poses.copy_from_slice(&state.poses);
-            momenta.copy_from_slice(&state.momenta);
-        }
-        self.take(lost, h);
-        Ok(taken)
-    }
-
-    fn generalized_alpha(&mut self, radius: f64, held: &Held) -> Result<Taken, StepFailure> {
-        let GeneralizedAlpha { alpha_m, alpha_f, gamma } = GeneralizedAlpha::new(radius);
-        let h = self.work.step;
-        let of_now = gamma / (1.0 - alpha_m);
-        self.begin();
-        let stage = &mut self.work.stage;
-        stage.set_up(of_now * (1.0 - alpha_f) * h, &self.state);
-        if let Past::Rates { momentum, strain, means: Some(means) } = &self.state.past {
-            let of_mean = h * (1.0 - gamma - of_now * alpha_m);
-            stage.add_history(of_mean, &means.velocity, &means.momentum, &means.strain);
-            stage.add_history(h * of_now * alpha_f, &self.state.velocities, momentum, strain);
-        }
-        held.at(1.0, self);
-        let Work { stage, poses, .. } = &mut self.work;
-        stage.predict(&self.state.velocities, poses);
-        let taken = self.solve_stage()?;
-        let lost = self.trapezoid(h);
-        let Self { state, work: Work { stage, poses, .. }, .. } = self;
-        let mean = |now: Vec6, before: Vec6, mean: Vec6| {
-            (now * (1.0 - alpha_f) + before * alpha_f - mean * alpha_m) * (1.0 / (1.0 - alpha_m))
-        };
-        if let Past::Rates { momentum, strain, means: Some(means) } = &mut state.past {
-            for (e, rate) in stage.strain_rates.iter().enumerate() {
-                means.strain[e] = mean(*rate, strain[e], means.strain[e]);
-                strain[e] = *rate;
-            }
-            for (i, rate) in stage.momentum_rates().enumerate() {
-                let velocity = mean(stage.coordinate_rates[i], state.velocities[i], means.velocity[i]);
-                means.velocity[i] = stage.turned_with(i, &poses[i], velocity);
-                means.momentum[i] = mean(rate, momentum[i], means.momentum[i]);
-                momentum[i] = rate;
-            }
-        }
-        self.take(lost, h);
-        Ok(taken)
-    }
-
-    /// Begins a step, or a piece of it, in which viscous rods are those that are so now.
-    pub(super) fn begin(&mut self) {
-        let Self { assembly, state, work: Work { stage, viscous, .. }, .. } = self;
-        viscous.clear();
-        let rods = assembly.strands.iter().enumerate().filter(|(_, strand)| strand.viscosity > 0.0);
-        viscous.extend(rods.map(|(rod, _)| (assembly.nodes(rod), assembly.elements(rod))));
-        stage.begin(state, viscous);
-    }
-
-    /// The energy that goes in a step that looks at its end alone, by what went at the end of the one before.
-    fn trapezoid(&mut self, h: f64) -> Power {
-        let mut lost = Power::default();
-        lost.add(self.state.power, 0.5 * h);
-        self.state.power = self.power();
-        lost.add(self.state.power, 0.5 * h);
-        lost
-    }
-
-    /// Ends a step, or a piece of it, where its last stage is.
-    pub(super) fn take(&mut self, lost: Power, seconds: f64) {
-        let Self { state, work: Work { groups, stage, poses, .. }, .. } = self;
-        state.poses.copy_from_slice(poses);
-        for system in groups.iter().flat_map(|group| &group.rods) {
-            state.wrenches[system.elements()].copy_from_slice(&system.record.wrenches);
-        }
-        state.velocities.copy_from_slice(&stage.velocities);
-        state.momenta.copy_from_slice(&stage.momenta);
-        state.dissipated += lost.dissipated;
-        state.worked += lost.worked;
-        state.time += seconds;
     }
 }

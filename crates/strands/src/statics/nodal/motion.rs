@@ -21,8 +21,10 @@ pub(crate) struct Inertial {
     pub exerts: Wrench,
     /// How its moment changes with a turn of the node, N·m.
     pub by_turn: Mat3,
-    /// How its moment (N) and force (N/m) change with a shift.
-    pub by_shift: [Mat3; 2],
+    /// Its moment changes by this vector across a shift, N.
+    pub lever: Vec3,
+    /// How its force changes with a shift, N/m, symmetric.
+    pub by_shift: Mat3,
 }
 
 impl Nodal {
@@ -71,12 +73,10 @@ impl Nodal {
 
 impl Inertial {
     /// How what is exerted at a place changes with the frame there, in some axes.
+    #[inline]
     pub(super) fn slope(&self, at: Vec3, axes: &Axes) -> Mat6 {
         let by_turn = self.by_turn.scaled(1.0 / axes.moment);
-        let by_shift = [
-            self.by_shift[0].scaled(axes.length / axes.moment),
-            self.by_shift[1].scaled(axes.length / axes.force),
-        ];
-        force_slope(at, by_turn, by_shift)
+        let lever = self.lever * (axes.length / axes.moment);
+        force_slope(at, by_turn, lever, self.by_shift.scaled(axes.length / axes.force))
     }
 }
