@@ -233,18 +233,20 @@ fn shearing() -> VibrationCase {
     }
 }
 
-const WAVES: Round = Round { length: 0.6, radius: 0.006, moduli: [2.5e6, 2.5e6 / 3.0], density: 1200.0 };
+/// A soft thick rod in which waves go to and fro.
+pub(crate) const WAVES: Round =
+    Round { length: 0.6, radius: 0.006, moduli: [2.5e6, 2.5e6 / 3.0], density: 1200.0 };
 
 /// A round rod by its numbers.
-struct Round {
-    length: f64,
+pub(crate) struct Round {
+    pub length: f64,
     radius: f64,
     moduli: [f64; 2],
     density: f64,
 }
 
 impl Round {
-    fn rod(&self) -> Uniform {
+    pub fn rod(&self) -> Uniform {
         Uniform::round(self.length, self.radius, self.moduli, self.density)
     }
 

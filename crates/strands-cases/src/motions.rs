@@ -1,5 +1,6 @@
 //! Rods that move far, with where they are known to be.
 
+use crate::frequencies::WAVES;
 use crate::table::Table;
 use crate::uniform::Uniform;
 use crate::vibration::VibrationError;
@@ -91,7 +92,7 @@ impl MotionCase {
         let mut simulation = self.begin(elements, settings)?;
         let mut moments = Vec::with_capacity(self.moments.len());
         for known in &self.moments {
-            while simulation.state().time < known.time - 0.5 * time_step {
+            while !simulation.has_come_to(known.time) {
                 self.step(&mut simulation)?;
             }
             moments.push(Moment::of(&simulation));
@@ -152,9 +153,9 @@ fn along_x() -> Pose {
 }
 
 fn pulled_at_once() -> MotionCase {
-    const LENGTH: f64 = 0.6;
+    const LENGTH: f64 = WAVES.length;
     const STRAIN: f64 = 1e-3;
-    let rod = Uniform::round(LENGTH, 0.006, [2.5e6, 2.5e6 / 3.0], 1200.0);
+    let rod = WAVES.rod();
     // The time that a wave takes from end to end. Both the end's way and the centre's go back as they came after two of it.
     let across = LENGTH * (rod.mass / rod.stiffness.axial).sqrt();
     let moments = [0.5, 1.0, 1.5, 2.5, 3.0, 3.5, 4.5, 5.5, 6.5, 7.5].map(|waves: f64| {
@@ -176,7 +177,7 @@ fn pulled_at_once() -> MotionCase {
         tolerance: 0.01 * LENGTH * STRAIN,
         moments: moments.into(),
         begin: |elements, settings| {
-            let rod = Uniform::round(LENGTH, 0.006, [2.5e6, 2.5e6 / 3.0], 1200.0);
+            let rod = WAVES.rod();
             let force = Wrench::new(Vec3::ZERO, Vec3::Z * (STRAIN * rod.stiffness.axial));
             let rod = rod.rod(Pose::IDENTITY, Vec3::ZERO, elements)?;
             let pull = PointLoad { at: LENGTH, wrench: force, frame: Frame::World };

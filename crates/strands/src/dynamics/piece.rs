@@ -83,14 +83,14 @@ impl Simulation {
         }
     }
 
-    /// A piece of a step of the method of order 4, which begins with the rates that the last one ended with.
+    /// A piece of a step of the method of order 4, which begins with the rates that the last one ended with. Where it fails the state is not that before it.
     fn sdirk4(&mut self, held: &Held, piece: Piece) -> Result<Taken, StepFailure> {
         if matches!(self.state.past, Past::Rates { .. }) {
             return self.with_rates(held, piece);
         }
         // Velocities may jump now, where a support begins to move, and what holds it then exerts nearly an impulse: that is what the first short step is
         // for. The second one has what acts thereafter.
-        let before = self.state.clone();
+        let began = self.state.time;
         let (mut taken, mut rest) = (Taken::default(), piece);
         let mut all = || {
             for _ in 0..2 {
@@ -103,10 +103,7 @@ impl Simulation {
             Ok(taken)
         };
         let made = all();
-        made.map_err(|failure: StepFailure| {
-            self.state = before;
-            failure.in_step(self.state.time, self.work.step)
-        })
+        made.map_err(|failure: StepFailure| failure.in_step(began, self.work.step))
     }
 
     fn with_rates(&mut self, held: &Held, piece: Piece) -> Result<Taken, StepFailure> {

@@ -90,9 +90,7 @@ impl Simulation {
         match failure {
             Some(failure) => Err(failure),
             // Solved, if not followed.
-            None => {
-                Ok(self.piece(integrator, held, WHOLE).map(|taken| self.report(taken, self.work.step, 1))?)
-            }
+            None => self.piece(integrator, held, WHOLE).map(|taken| self.report(taken, self.work.step, 1)),
         }
     }
 
@@ -128,8 +126,8 @@ impl Simulation {
         let seen = |near: &Pose, far: &Pose| near.rotation.transpose_mul(far.rotation.cols[2]);
         (0..self.assembly.strands.len()).all(|rod| {
             let nodes = self.assembly.nodes(rod);
-            let pairs = now[nodes.clone()].windows(2).zip(before[nodes].windows(2));
-            pairs.into_iter().all(|(now, before)| {
+            let mut pairs = now[nodes.clone()].windows(2).zip(before[nodes].windows(2));
+            pairs.all(|(now, before)| {
                 let bent = seen(&now[0], &now[1]) - seen(&before[0], &before[1]);
                 bent.dot(bent) <= FOLLOWED * FOLLOWED
             })
