@@ -129,7 +129,7 @@ fn a_stiff_rod_swings_as_a_pendulum() {
 
 #[test]
 fn a_stiff_rod_that_turns_end_over_end_is_in_tension() {
-    let (spin, elements) = (3.0, 40);
+    let (started, elements) = (3.0, 40);
     for integrator in [
         Integrator::ImplicitEuler,
         Integrator::Bdf2,
@@ -138,10 +138,14 @@ fn a_stiff_rod_that_turns_end_over_end_is_in_tension() {
         Integrator::GeneralizedAlpha { spectral_radius: 0.8 },
     ] {
         let mut simulation = simulated(top(Vec3::Z * 1e-6, elements).unwrap(), integrator, 0.01);
-        simulation.set_velocities(&turning(&simulation, Vec3::X * spin, Vec3::Z * 0.5));
+        simulation.set_velocities(&turning(&simulation, Vec3::X * started, Vec3::Z * 0.5));
         for _ in 0..100 {
             simulation.step().unwrap();
         }
+        // Backward Euler's method takes 8e-4 of the spin in a step, so it is not the same at the wrenches' time and at the velocities'.
+        let spin = simulation.state().velocities[0].angular.norm();
+        let (kept, within) = if integrator == Integrator::ImplicitEuler { (0.1, 2e-3) } else { (1e-3, 3e-4) };
+        assert!((spin / started - 1.0).abs() < kept, "{}: {spin}", integrator.name());
         // What the nodes beyond the middle of an element need to stay on their circles.
         let rod = &simulation.assembly().strands[0].problem.rod;
         let nodes = rod.node_inertia().iter().zip(rod.mesh().nodes()).enumerate();
@@ -155,7 +159,7 @@ fn a_stiff_rod_that_turns_end_over_end_is_in_tension() {
         let wrenches = simulation.state().wrenches.iter().map(|wrench| wrench.linear.z);
         let apart = expected.iter().zip(wrenches).map(|(expected, got)| (got - expected).abs() / most);
         let worst = apart.fold(0.0, f64::max);
-        assert!(worst < 3e-4, "{}: {worst:e}", integrator.name());
+        assert!(worst < within, "{}: {worst:e}", integrator.name());
     }
 }
 

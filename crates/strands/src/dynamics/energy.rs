@@ -1,7 +1,7 @@
 //! Where the energy of what moves is, and what holds it.
 
+use super::Simulation;
 use super::newton::RodSystem;
-use super::{Simulation, about};
 use crate::assembly::Member;
 use crate::math::{Pose, Vec3, Vec6, Wrench};
 use crate::rod::{NodeInertia, exponents};
@@ -51,7 +51,8 @@ impl Simulation {
     pub fn energy(&self) -> Budget {
         let state = &self.state;
         let kinetic = |(i, momentum): (usize, &Wrench)| {
-            let body = about(self.origin, &state.poses[i]).inverse().carry_wrench(*momentum);
+            let turned = |v: Vec3| state.poses[i].rotation.transpose_mul(v);
+            let body = Wrench::new(turned(momentum.angular), turned(momentum.linear));
             let NodeInertia { mass, rotational } = self.work.inertia[i];
             let turning = squares_over(&body.angular.to_array(), &rotational.to_array());
             0.5 * (turning + body.linear.dot(body.linear) / mass)
@@ -80,7 +81,13 @@ impl Simulation {
 
     /// The momentum of all, N·s, and the angular momentum about the first rod's base as it was described, N·m·s.
     pub fn momentum(&self) -> (Vec3, Vec3) {
-        let sum = self.state.momenta.iter().fold(Wrench::ZERO, |sum, momentum| sum + *momentum);
+        let moving = self.state.momenta.iter().zip(&self.state.poses);
+        let sum = moving.fold(Wrench::ZERO, |sum, (momentum, pose)| {
+            sum + Wrench::new(
+                momentum.angular + (pose.position - self.origin).cross(momentum.linear),
+                momentum.linear,
+            )
+        });
         (sum.linear, sum.angular)
     }
 

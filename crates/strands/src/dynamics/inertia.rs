@@ -14,8 +14,6 @@ pub(super) struct TakeInertia<'a> {
     pub first: usize,
     pub inertia: &'a [NodeInertia],
     pub poses: &'a [Pose],
-    /// Where momenta are about.
-    pub origin: Vec3,
     /// The momentum that is lost, over itself, 1/s.
     pub lost: f64,
 }
@@ -25,12 +23,12 @@ impl Kernel for TakeInertia<'_> {
 
     #[inline(always)]
     fn run(self) {
-        let Self { stage, first, inertia, poses, origin, lost } = self;
+        let Self { stage, first, inertia, poses, lost } = self;
         for begin in (0..poses.len()).step_by(SIDE) {
             let at = |lane: usize| (begin + lane).min(poses.len() - 1);
             let mut base = Mat3 { cols: [Side::zero(); 3] };
             let mut rotation = base;
-            let [mut shift, mut place, mut rotational] = [Side::zero(); 3];
+            let [mut shift, mut rotational] = [Side::zero(); 2];
             let [mut offset, mut known] = [Vec6::<Side>::zero(); 2];
             let mass = Lanes::from_fn(|lane| inertia[first + at(lane)].mass);
             for lane in 0..SIDE {
@@ -41,7 +39,6 @@ impl Kernel for TakeInertia<'_> {
                     rotation.cols[k].put(lane, pose.rotation.cols[k]);
                 }
                 shift.put(lane, pose.position - before.position);
-                place.put(lane, pose.position - origin);
                 rotational.put(lane, inertia[i].rotational);
                 offset.put(lane, stage.offsets[i]);
                 known.put(lane, stage.known_momenta[i]);
@@ -55,17 +52,16 @@ impl Kernel for TakeInertia<'_> {
             let spin = rotation * rotational.scale(turning.velocity);
             let linear = rate.linear * mass;
             // Of the momentum about the node.
-            let change = Vec6::new(spin - known.angular + place.cross(known.linear), linear - known.linear);
+            let change = Vec6::new(spin - known.angular, linear - known.linear);
             let exerts = change * -per_rate - Vec6::new(spin, linear) * Lanes::splat(lost);
             let turned = rotation * Mat3::diagonal(rotational) * turning.by_turn * rotation.transpose();
             let by_turn = (turned - Mat3::hat(spin)).scaled(-per_momentum);
-            let about_origin = spin + place.cross(linear);
             for lane in 0..SIDE.min(poses.len() - begin) {
                 let i = first + begin + lane;
                 let rate = rate.lane(lane);
                 stage.coordinate_rates[i] = rate;
                 stage.velocities[i] = Vec6::new(turning.velocity.lane(lane), rate.linear);
-                stage.momenta[i] = Wrench::new(about_origin.lane(lane), linear.lane(lane));
+                stage.momenta[i] = Wrench::new(spin.lane(lane), linear.lane(lane));
                 let per_shift = -per_momentum.0[lane] * per_rate.0[lane] * mass.0[lane];
                 stage.inertial[i] = Inertial {
                     exerts: exerts.lane(lane),
@@ -74,7 +70,6 @@ impl Kernel for TakeInertia<'_> {
                         by_turn.cols[1].lane(lane),
                         by_turn.cols[2].lane(lane),
                     ),
-                    lever: stage.known_momenta[i].linear * per_rate.0[lane],
                     by_shift: Mat3::diagonal(Vec3::new(per_shift, per_shift, per_shift)),
                 };
             }

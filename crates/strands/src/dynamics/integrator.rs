@@ -1,15 +1,15 @@
 //! Integrators in time, as coefficients of one equation.
 //!
 //! All of them solve, once or several times a step, for frames at which momentum has changed by what acts there. With `q` the canonical coordinates of a
-//! node's frame about that at the step's beginning, a rotation vector `θ` and a shift, and the momentum `Π` of the node about a fixed place, a stage is
+//! node's frame about that at the step's beginning, a rotation vector `θ` and a shift, and the momentum `Π` of the node about itself, a stage is
 //!
 //! ```text
 //! q = Δ + a q̇,   Π = Π̂ + a W(q)
 //! ```
 //!
 //! where `W` is all that acts on the node but inertia, and `Δ`, `Π̂` and `a` are known. Its angular velocity is `T(θ) θ̇` in its own axes. `q` and `Π` live
-//! in vector spaces, so a method keeps the order that it has there (Munthe-Kaas 1998), and the sum of `Π` over all nodes changes by nothing but what
-//! acts from outside.
+//! in vector spaces, so a method keeps the order that it has there (Munthe-Kaas 1998), and the sum of the linear parts of `Π` over all nodes changes by nothing
+//! but what acts from outside.
 
 /// How a step in time is made.
 #[derive(Clone, Copy, Debug, PartialEq)]

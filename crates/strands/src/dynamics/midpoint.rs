@@ -42,7 +42,6 @@ impl Stage {
         frames: Range<usize>,
         inertia: &[NodeInertia],
         poses: &[Pose],
-        origin: Vec3,
         resistance: &Resistance,
     ) {
         let per_step = 0.5 / self.of_rate;
@@ -50,7 +49,7 @@ impl Stage {
             let (base, pose) = (&self.base[i], &poses[at]);
             let NodeInertia { mass, rotational } = inertia[i];
             let known = self.known_momenta[i];
-            let spin_before = known.angular - (base.position - origin).cross(known.linear);
+            let spin_before = known.angular;
             let before = self.velocities_before[i];
             let half = base.rotation.turn_to(&pose.rotation);
             let (theta, by_half) = cayley(half);
@@ -68,14 +67,12 @@ impl Stage {
             let lost = resistance.lost;
             let mean = Wrench::new((spin + spin_before) * 0.5, moved * (mass * per_step));
             let change = Wrench::new(spin - spin_before, momentum - known.linear);
-            let end = base.position + moved - origin;
             self.coordinate_rates[i] = Vec6::new(half, moved * 0.5) * (1.0 / self.of_rate);
             self.velocities[i] = Vec6::new(angular, linear);
-            self.momenta[i] = Wrench::new(spin + end.cross(momentum), momentum);
+            self.momenta[i] = Wrench::new(spin, momentum);
             self.inertial[i] = Inertial {
                 exerts: change * (-per_step) - mean * lost,
                 by_turn: by_turn.scaled(-per_step - 0.5 * lost),
-                lever: Vec3::ZERO,
                 by_shift: Mat3::IDENTITY.scaled(-mass * per_step * (4.0 * per_step + 2.0 * lost)),
             };
         }

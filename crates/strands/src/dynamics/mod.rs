@@ -118,7 +118,7 @@ pub struct Simulation {
     assembly: Assembly,
     settings: Settings,
     state: State,
-    /// Where momenta are about.
+    /// Where the angular momentum of all is about.
     origin: Vec3,
     work: Work,
 }
@@ -255,7 +255,7 @@ impl Simulation {
             let (pose, NodeInertia { mass, rotational }) = (&self.state.poses[i], self.work.inertia[i]);
             let spin = pose.rotation * rotational.scale(velocities[i].angular);
             let linear = velocities[i].linear * mass;
-            *momentum = Wrench::new(spin + (pose.position - self.origin).cross(linear), linear);
+            *momentum = Wrench::new(spin, linear);
         }
         self.state.past = Past::None;
     }
@@ -273,11 +273,6 @@ impl Taken {
         self.iterations += stage.iterations;
         self.residual = self.residual.max(stage.residual);
     }
-}
-
-/// A pose as seen from axes about another origin.
-fn about(origin: Vec3, pose: &Pose) -> Pose {
-    Pose { rotation: pose.rotation, position: pose.position - origin }
 }
 
 fn check(assembly: &Assembly, settings: &Settings) -> Result<(), SimulationError> {

@@ -3,7 +3,7 @@
 use super::stage::{Resistance, Stage};
 use super::{Simulation, StepFailure, Taken};
 use crate::assembly::{Assembly, Member, Ties};
-use crate::math::{Pose, SimdLevel, Vec3, Wrench, larger};
+use crate::math::{Pose, SimdLevel, Wrench, larger};
 use crate::rod::{Kinematics, NodeInertia};
 use crate::statics::{Motion, Network, Nodal, Problem, Record, Support, meet, rigid_compliance};
 use core::ops::Range;
@@ -43,7 +43,6 @@ struct Given<'a> {
     ties: &'a Ties,
     inertia: &'a [NodeInertia],
     lengths: &'a [f64],
-    origin: Vec3,
     lost: f64,
     tolerance: f64,
     level: SimdLevel,
@@ -78,11 +77,11 @@ impl RodSystem {
         let (viscosity, poses) = (strand.viscosity, &self.record.poses);
         let elastic = strand.problem.rod.diagonal_points().unwrap_or_default();
         if stage.middle {
-            stage.take_inertia_at_middle(nodes, given.inertia, poses, given.origin, &resistance);
+            stage.take_inertia_at_middle(nodes, given.inertia, poses, &resistance);
             stage.take_secants(elements, self.first, elastic, viscosity, poses);
             return;
         }
-        stage.take_inertia(nodes, given.inertia, poses, given.origin, &resistance, given.level);
+        stage.take_inertia(nodes, given.inertia, poses, &resistance, given.level);
         if viscosity > 0.0 {
             stage.take_viscosity(elements, elastic, viscosity);
         }
@@ -196,7 +195,7 @@ impl Group {
         for &body in &self.bodies {
             let frame = assembly.first_body() + body;
             let pose = poses[frame];
-            stage.take_inertia(frame..frame + 1, given.inertia, &[pose], given.origin, &resistance, level);
+            stage.take_inertia(frame..frame + 1, given.inertia, &[pose], &resistance, level);
             let NodeInertia { mass, .. } = given.inertia[frame];
             let moved = f64::EPSILON * pose.position.max_abs() / (stage.of_rate * stage.of_rate);
             let unsure = ROUND_OFF * mass * moved / given.tolerance;
@@ -246,10 +245,10 @@ impl Group {
     }
 
     /// What is left over of frames that nothing holds goes into their momenta: then none is lost or made.
-    fn keep_left_over(&self, assembly: &Assembly, stage: &mut Stage, origin: Vec3) {
+    fn keep_left_over(&self, assembly: &Assembly, stage: &mut Stage, poses: &[Pose]) {
         let times = if stage.middle { 2.0 * stage.of_rate } else { stage.of_rate };
         let mut keep = |frame: usize, left: Wrench| {
-            let about = Wrench::new(left.angular - origin.cross(left.linear), left.linear);
+            let about = Wrench::new(left.angular - poses[frame].position.cross(left.linear), left.linear);
             stage.momenta[frame] += about * times;
         };
         let held = |member| assembly.support(member).is_some_and(Support::holds_anything);
@@ -290,7 +289,7 @@ impl Simulation {
 
     /// Takes what acts where all is, as if it did not move: so what holds it is known before the first step.
     pub(super) fn weigh(&mut self) {
-        let Self { assembly, settings, state, origin, work } = self;
+        let Self { assembly, settings, state, work, .. } = self;
         work.stage.begin(state, &[]);
         work.stage.set_up(LONG, state);
         work.poses.clone_from(&state.poses);
@@ -301,7 +300,6 @@ impl Simulation {
                 ties: &work.ties,
                 inertia: &work.inertia,
                 lengths: &work.lengths,
-                origin: *origin,
                 lost: 0.0,
                 tolerance: settings.tolerance,
                 level: work.level,
@@ -311,7 +309,7 @@ impl Simulation {
     }
 
     fn solve_group(&mut self, group: usize) -> Result<Taken, StepFailure> {
-        let Self { assembly, settings, state, origin, work } = self;
+        let Self { assembly, settings, state, work, .. } = self;
         let group = &mut work.groups[group];
         let (ties, stage, level) = (&work.ties, &mut work.stage, work.level);
         group.guess(assembly, ties, &mut work.poses, state);
@@ -323,7 +321,6 @@ impl Simulation {
             ties,
             inertia: &work.inertia,
             lengths: &work.lengths,
-            origin: *origin,
             lost: settings.mass_damping,
             tolerance: floor.fold(settings.tolerance, f64::max),
             level,
@@ -363,7 +360,7 @@ impl Simulation {
                 stage.take_strain_rates(system.elements(), &system.record.poses);
             }
         }
-        group.keep_left_over(assembly, stage, *origin);
+        group.keep_left_over(assembly, stage, &work.poses);
         Ok(Taken { iterations, residual })
     }
 }

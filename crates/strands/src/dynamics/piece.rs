@@ -32,7 +32,7 @@ impl Simulation {
             Integrator::Bdf2 | Integrator::GeneralizedAlpha { .. } if !self.looks_back(integrator) => {
                 let (poses, momenta) = (self.state.poses.clone(), self.state.momenta.clone());
                 let taken = self.sdirk4(held, piece)?;
-                self.look_back_on(integrator, poses, momenta, 1);
+                self.look_back_on(integrator, poses, momenta);
                 Ok(taken)
             }
             Integrator::Bdf2 => self.bdf2(held),
@@ -49,22 +49,16 @@ impl Simulation {
         }
     }
 
-    /// After a step of the method of order 4, in so many pieces, gives the integrator what it looks back on.
-    pub(super) fn look_back_on(
-        &mut self,
-        integrator: Integrator,
-        poses: Vec<Pose>,
-        momenta: Vec<Wrench>,
-        pieces: usize,
-    ) {
+    /// After a step of the method of order 4 gives the integrator what it looks back on.
+    pub(super) fn look_back_on(&mut self, integrator: Integrator, poses: Vec<Pose>, momenta: Vec<Wrench>) {
         let Self { state, work, .. } = self;
         match integrator {
             Integrator::Bdf2 => state.past = Past::Before { poses, momenta },
             Integrator::GeneralizedAlpha { spectral_radius } => {
                 let Past::Rates { momentum, strain, means } = &mut state.past else { return };
-                // How long ago the rates were as their means are, over the piece (Arnold, Brüls & Cardona 2015).
+                // How long ago the rates were as their means are, over the step (Arnold, Brüls & Cardona 2015).
                 let GeneralizedAlpha { alpha_m, alpha_f, .. } = GeneralizedAlpha::new(spectral_radius);
-                let ago = (alpha_f - alpha_m) * pieces as f64;
+                let ago = alpha_f - alpha_m;
                 let earlier = |now: Vec6, before: Vec6| now + (before - now) * ago;
                 let Work { stage, coordinate_rates, momentum_rates, strain_rates, .. } = work;
                 let velocity = stage.coordinate_rates.iter().zip(coordinate_rates).enumerate();

@@ -57,8 +57,7 @@ impl Stage {
                 *strain = x;
             }
         }
-        let none =
-            Inertial { exerts: Wrench::ZERO, by_turn: Mat3::ZERO, lever: Vec3::ZERO, by_shift: Mat3::ZERO };
+        let none = Inertial { exerts: Wrench::ZERO, by_turn: Mat3::ZERO, by_shift: Mat3::ZERO };
         self.inertial.resize(frames, none);
         self.drags.clear();
         self.drags.resize(frames, Vec3::ZERO);
@@ -165,12 +164,11 @@ impl Stage {
         frames: Range<usize>,
         inertia: &[NodeInertia],
         poses: &[Pose],
-        origin: Vec3,
         resistance: &Resistance,
         level: SimdLevel,
     ) {
         let (first, lost) = (frames.start, resistance.lost);
-        dispatch(level, TakeInertia { stage: self, first, inertia, poses, origin, lost });
+        dispatch(level, TakeInertia { stage: self, first, inertia, poses, lost });
         self.take_drag(frames, poses, resistance);
     }
 

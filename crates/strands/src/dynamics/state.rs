@@ -13,7 +13,7 @@ pub struct State {
     pub poses: Vec<Pose>,
     /// How they turn, in their own axes, rad/s, and shift in the world, m/s.
     pub velocities: Vec<Vec6>,
-    /// Their momenta about the simulation's origin, world axes, N·m·s and N·s.
+    /// Their momenta, angular about their places, world axes, N·m·s and N·s.
     pub momenta: Vec<Wrench>,
     /// The wrench that each element carries through its far node, in that node's frame, where a stage was solved last: rod by rod
     /// ([`Assembly::elements`]).

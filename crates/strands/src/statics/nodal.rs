@@ -209,7 +209,7 @@ impl Nodal {
                 let force = pull.force(pose.position) * (1.0 / axes.force);
                 load += Wrench::new(at.cross(force), force);
                 let by_shift = pull.slope(pose.position).scaled(axes.length / axes.force);
-                slope = slope.add(&force_slope(at, Mat3::ZERO, Vec3::ZERO, by_shift));
+                slope = slope.add(&force_slope(at, Mat3::ZERO, by_shift));
             }
             if body != Wrench::ZERO {
                 let carried = axes.frame(pose).carry_wrench(body);
@@ -526,16 +526,13 @@ fn dead_moment_slope<R: Real>(at: Vec3<R>, force: Vec3<R>) -> [Mat3<Vec3<R>>; 2]
 }
 
 /// How a wrench at a place, its moment about the origin, changes with the frame there beside what it does as a dead one, where its moment about the
-/// place changes by so much with the turn and by `lever × shift`, and its force with the shift, by a symmetric matrix.
+/// place changes by so much with the turn, and its force with the shift, by a symmetric matrix.
 #[inline]
-fn force_slope(at: Vec3, by_turn: Mat3, lever: Vec3, by_shift: Mat3) -> Mat6 {
+fn force_slope(at: Vec3, by_turn: Mat3, by_shift: Mat3) -> Mat6 {
     let across = |matrix: &Mat3| Mat3 { cols: matrix.cols.map(|column| at.cross(column)) };
     let by_arm = across(&by_shift);
     let force = [by_arm.transpose(), by_shift];
-    // Of two vectors `a^ b^ = b aᵀ − a·b`.
-    let along = lever.dot(at);
-    let levered = Mat3::outer(at, lever) - Mat3::diagonal(Vec3::new(along, along, along));
-    let moment = [by_turn + across(&force[0]) - levered, by_arm + Mat3::hat(lever)];
+    let moment = [by_turn + across(&force[0]), by_arm];
     Mat6 { blocks: [moment, force] }
 }
 
@@ -546,5 +543,5 @@ fn grip_acts(grip: &Grip, pose: &Pose, at: Vec3, axes: &Axes) -> (Wrench, Mat6) 
     let by_turn = by_turn.scaled(1.0 / axes.moment) * pose.rotation.transpose();
     let by_shift = by_shift.scaled(axes.length / axes.force);
     let acts = Wrench::new(wrench.angular + at.cross(wrench.linear), wrench.linear);
-    (acts, force_slope(at, by_turn, Vec3::ZERO, by_shift))
+    (acts, force_slope(at, by_turn, by_shift))
 }

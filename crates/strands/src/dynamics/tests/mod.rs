@@ -3,8 +3,8 @@ mod network;
 
 use super::{Integrator, Settings, Simulation, Start};
 use crate::assembly::Strand;
-use crate::load::NodalLoads;
-use crate::math::{Pose, Vec3, Vec6};
+use crate::load::{Frame, NodalLoads, PointLoad};
+use crate::math::{Pose, Vec3, Vec6, Wrench};
 use crate::rod::{
     Kinematics, Law, Material, Order, Profile, Rod, RodDescription, Section, Station, Stiffness,
 };
@@ -85,8 +85,8 @@ fn integrators_have_their_order() {
             (Integrator::Bdf2, 2.0, 40),
             (ALPHA, 2.0, 40),
             (Integrator::Midpoint, 2.0, 40),
-            // The rates of strains are differences of places within a step, which cost a method of order 4 one of them.
-            (Integrator::Sdirk4, if viscous > 0.0 { 3.0 } else { 4.0 }, 12),
+            // The rates of strains are differences of places within a step, which cost a method of order 4 up to one of them.
+            (Integrator::Sdirk4, if viscous > 0.0 { 3.5 } else { 4.0 }, 12),
         ] {
             let error = |steps: usize| after(integrator, steps).between(&exact).log().max_abs();
             let measured = (error(steps) / error(4 * steps)).log2() / 2.0;
@@ -119,7 +119,13 @@ fn a_rod_in_free_flight_keeps_its_momentum() {
         let (later, turned) = simulation.momentum();
         let lost = (later - momentum).norm() / momentum.norm();
         let lost_angular = (turned - angular).norm() / angular.norm();
-        assert!(lost < 1e-12 && lost_angular < 1e-10, "{}: {lost:e} {lost_angular:e}", integrator.name());
+        // Only the midpoint rule keeps the latter by itself.
+        let kept = match integrator {
+            Integrator::Midpoint => 1e-10,
+            Integrator::ImplicitEuler => 0.05,
+            _ => 1e-5,
+        };
+        assert!(lost < 1e-12 && lost_angular < kept, "{}: {lost:e} {lost_angular:e}", integrator.name());
     }
 }
 
@@ -180,11 +186,8 @@ fn a_beam_vibrates_at_its_frequency_in_both_planes() {
     for (direction, second_moment) in [(Vec3::Y, about_1), (Vec3::X, about_2)] {
         // Released where a small force holds its tip, which is nearly the first mode.
         let loads = NodalLoads::none(&rod);
-        let load = crate::load::PointLoad {
-            at: 0.5,
-            wrench: crate::math::Wrench::new(Vec3::ZERO, direction * 1e-3),
-            frame: crate::load::Frame::World,
-        };
+        let load =
+            PointLoad { at: 0.5, wrench: Wrench::new(Vec3::ZERO, direction * 1e-3), frame: Frame::World };
         let held = Problem {
             loads: loads.clone().with_point(&rod, &load).unwrap(),
             ..Problem::cantilever(rod.clone())
@@ -222,6 +225,27 @@ fn a_suture_without_damping_keeps_swinging() {
         }
         let lost = (began - simulation.energy().total()) / most;
         assert!((0.0..0.01).contains(&lost), "{elements}: {lost}");
+    }
+}
+
+#[test]
+fn a_pulled_suture_gains_no_energy_where_it_moves_by_elements_in_a_step() {
+    let stuff = Material::from_poisson(1.5e9, 0.4, 910.0).unwrap();
+    let suture = rod(0.2, 85e-6, stuff, Kinematics::Cosserat, 40);
+    let pull = PointLoad { at: 0.2, wrench: Wrench::new(Vec3::ZERO, Vec3::Y * 1e-3), frame: Frame::World };
+    let held = heavy(suture.clone());
+    let loads = held.loads.clone().with_point(&suture, &pull).unwrap();
+    let held = Problem { loads, ..held };
+    for integrator in [Integrator::ImplicitEuler, Integrator::Bdf2, ALPHA, Integrator::Sdirk4] {
+        let mut simulation = simulated(held.clone(), integrator, 1e-3, Start::Rest);
+        let (mut least, mut gained) = (simulation.energy().total(), 0.0_f64);
+        for _ in 0..100 {
+            simulation.step().unwrap();
+            let now = simulation.energy();
+            least = least.min(now.total());
+            gained = gained.max((now.total() - least) / (now.kinetic + now.elastic));
+        }
+        assert!(gained < 0.05, "{}: {gained:e}", integrator.name());
     }
 }
 

@@ -21,8 +21,6 @@ pub(crate) struct Inertial {
     pub exerts: Wrench,
     /// How its moment changes with a turn of the node, N·m.
     pub by_turn: Mat3,
-    /// Its moment changes by this vector across a shift, N.
-    pub lever: Vec3,
     /// How its force changes with a shift, N/m, symmetric.
     pub by_shift: Mat3,
 }
@@ -76,7 +74,6 @@ impl Inertial {
     #[inline]
     pub(super) fn slope(&self, at: Vec3, axes: &Axes) -> Mat6 {
         let by_turn = self.by_turn.scaled(1.0 / axes.moment);
-        let lever = self.lever * (axes.length / axes.moment);
-        force_slope(at, by_turn, lever, self.by_shift.scaled(axes.length / axes.force))
+        force_slope(at, by_turn, self.by_shift.scaled(axes.length / axes.force))
     }
 }
