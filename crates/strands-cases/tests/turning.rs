@@ -142,9 +142,14 @@ fn a_stiff_rod_that_turns_end_over_end_is_in_tension() {
         for _ in 0..100 {
             simulation.step().unwrap();
         }
-        // Backward Euler's method takes 8e-4 of the spin in a step, so it is not the same at the wrenches' time and at the velocities'.
+        // Backward Euler's method takes 8e-4 of the spin in a step, so it is not the same at the wrenches' time and at the velocities'. Differences of
+        // places on a circle, taken as BDF2 does twice, are 2/3 of the square of a step's turn off.
         let spin = simulation.state().velocities[0].angular.norm();
-        let (kept, within) = if integrator == Integrator::ImplicitEuler { (0.1, 2e-3) } else { (1e-3, 3e-4) };
+        let (kept, within) = match integrator {
+            Integrator::ImplicitEuler => (0.1, 2e-3),
+            Integrator::Bdf2 => (1e-3, 7e-4),
+            _ => (1e-3, 3e-4),
+        };
         assert!((spin / started - 1.0).abs() < kept, "{}: {spin}", integrator.name());
         // What the nodes beyond the middle of an element need to stay on their circles.
         let rod = &simulation.assembly().strands[0].problem.rod;
