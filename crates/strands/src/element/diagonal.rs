@@ -598,7 +598,7 @@ pub(crate) struct Resistance<R = f64> {
 }
 
 /// The resistance of an element of order 2 with a diagonal law, from `h S`, `h ε̂`, the exponent between its frames, the wrench through
-/// its far node, and the pose of that node in the fixed axes. `lent` is added to the compliance of its shifts, in the way to the solution and not
+/// its far node, and how that node is turned in the axes, about whose place all is. `lent` is added to the compliance of its shifts, in the way to the solution and not
 /// in what must hold there.
 ///
 /// With `x = h ε̂ + h S σ̄`, `σ̄ = T(x)ᵀ w`, the change of the wrench follows from that of the exponent, `T δx = ξ`:
@@ -610,16 +610,14 @@ pub(crate) fn diagonal_resistance<R: Real>(
     lent: R,
     x: Vec6<Vec3<R>>,
     w: Wrench<Vec3<R>>,
-    far: &Pose<Vec3<R>>,
+    turned: &Mat3<Vec3<R>>,
 ) -> Resistance<R> {
     let element = Turned::new(x, w);
-    // T⁻¹ seen from the fixed axes. With T's blocks `D` on its diagonal and `S` below, and `R` and `p` the far node's, those are `D⁻¹ Rᵀ` on the
-    // diagonal and `−(D⁻¹ S D⁻¹ Rᵀ + D⁻¹ Rᵀ p^)` below.
+    // T⁻¹ seen from the axes. With T's blocks `D` on its diagonal and `S` below, and `R` the far node's, those are `D⁻¹ Rᵀ` on the diagonal and
+    // `−D⁻¹ S D⁻¹ Rᵀ` below.
     let tangent = element.turn.inverse();
-    let inverse = tangent * far.rotation.transpose();
-    let ([a, b, c], p) = (inverse.cols, far.position);
-    let by_place = Mat3::from_cols(b * p.z - c * p.y, c * p.x - a * p.z, a * p.y - b * p.x);
-    let below = (tangent * element.shift * inverse + by_place).scaled(-R::one());
+    let inverse = tangent * turned.transpose();
+    let below = (tangent * element.shift * inverse).scaled(-R::one());
     let slack = rest + compliance.scale(element.mean) - x;
     let reciprocal = |v: Vec3<R>| Vec3::new(R::one() / v.x, R::one() / v.y, R::one() / v.z);
     let (bend, stretch) =

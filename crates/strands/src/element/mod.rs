@@ -230,7 +230,7 @@ pub(crate) fn flexibility_of(
     }
 }
 
-/// The [`Resistance`] of an element of any order and law, seen from axes in which its far node has the pose `far`; `relative` is that node's
+/// The [`Resistance`] of an element of any order and law, seen from axes where its far node is, which is `turned` so in them; `relative` is that node's
 /// pose in the near node's frame, and `strain` a guess, replaced by the strains that belong to the wrench. `lent` is added to the compliance of
 /// its shifts.
 ///
@@ -240,7 +240,7 @@ pub(crate) fn resistance(
     e: usize,
     w: Wrench,
     relative: &Pose,
-    far: &Pose,
+    turned: &Mat3,
     strain: &mut PointStrains,
     lent: f64,
 ) -> Option<Resistance> {
@@ -253,6 +253,7 @@ pub(crate) fn resistance(
     let factors = lu::<6>(flexibility(order, kinematics, h, points, w, strain)?.add(&lend).to_rows())?;
     let columns = Mat6::IDENTITY.to_rows().map(|column| factors.solve(&column));
     let stiffness = Mat6::from_rows(&columns).transpose();
+    let far = Pose { rotation: *turned, position: Vec3::ZERO };
     let pull = far.carry_wrench(stiffness.mul_vec(gap));
     let back = far.inverse().adjoint_matrix();
     Some(Resistance { stiffness: back.transpose().mul(&stiffness).mul(&back).blocks, pull, slack: gap })

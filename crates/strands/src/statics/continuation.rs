@@ -209,9 +209,8 @@ impl Tangent {
     }
 
     /// The product with motions (by a step of a system) and a change of the parameter.
-    fn product(&self, nodal: &Nodal, steps: &[Vec6], parameter: f64) -> f64 {
-        let motions = self.motions.iter().zip(steps).enumerate();
-        let sum: f64 = motions.map(|(i, (a, step))| inner(*a, nodal.motion(i, step))).sum();
+    fn product(&self, steps: &[Vec6], parameter: f64) -> f64 {
+        let sum: f64 = self.motions.iter().zip(steps).map(|(a, step)| inner(*a, *step)).sum();
         sum / steps.len() as f64 + self.parameter * parameter
     }
 
@@ -404,8 +403,8 @@ impl Follower<'_> {
             if nodal.solve(level, 0.0).is_none() {
                 return Err("the system is singular".into());
             }
-            let slope = normal.product(&nodal, &nodal.other_steps, 1.0);
-            let change = -normal.product(&nodal, &nodal.steps, 0.0) / slope;
+            let slope = normal.product(&nodal.other_steps, 1.0);
+            let change = -normal.product(&nodal.steps, 0.0) / slope;
             nodal.add_other(change);
             let size = nodal.step_size();
             if !(change.is_finite() && size < 2.0 * LARGEST_MOTION) {
@@ -580,8 +579,7 @@ impl Follower<'_> {
 
 /// The tangent by the other solution of a system and a change of the parameter by `parameter`, in the direction of the one before.
 fn tangent(nodal: &Nodal, parameter: f64, before: &Tangent) -> Option<Tangent> {
-    let motions: Vec<Vec6> =
-        nodal.other_steps.iter().enumerate().map(|(i, step)| nodal.motion(i, step)).collect();
+    let motions = nodal.other_steps.clone();
     let square: f64 = motions.iter().map(|m| inner(*m, *m)).sum::<f64>() / motions.len() as f64;
     let length = (square + parameter * parameter).sqrt();
     if !(length.is_finite() && length > 0.0) {

@@ -12,7 +12,9 @@
 //! on its far node, and the opposite on its near one. The pivots are those of a Newton step on the energy (the augmented Lagrangian at the wrenches
 //! as they are), so by the number of negative ones a step shows whether it leads down, and at an equilibrium whether that is stable.
 //!
-//! All is seen from fixed axes about the rod's start, in which lengths, forces and moments are numbers of order one.
+//! Every node's variation and moments are seen from fixed axes where it is, an element's from where its far node is, in which lengths, forces and moments
+//! are numbers of order one. (Seen from one place for all, the stiffness against stretching times the square of the distance from there would stand beside
+//! that against twisting: of a long thin rod that hardly stretches nothing would be left of the latter.)
 
 mod axes;
 mod elements;
@@ -26,7 +28,7 @@ use axes::Axes;
 use elements::Linearise;
 pub(crate) use elements::{logs, take_strains};
 pub(crate) use elimination::Inertia;
-use elimination::{Block, Eliminate, Square, pair, parts};
+use elimination::{Block, Eliminate, Square, answer, pair, parts, seen_from_near};
 pub(crate) use motion::{Inertial, Motion};
 pub(crate) use network::Network;
 pub(crate) use second_variation::SecondVariation;
@@ -45,9 +47,11 @@ use crate::rod::{Order, Rod};
 /// the axes, which are the worst, have a fourth of it.
 const ROUND_OFF: f64 = 16.0;
 
-/// An element, linearised.
+/// An element, linearised, as seen from its far node's place.
 #[derive(Clone, Copy, Debug)]
 struct Link<R> {
+    /// To there from the near node.
+    arm: Vec3<R>,
     stiffness: Square<R>,
     carried: Wrench<Vec3<R>>,
     pull: Wrench<Vec3<R>>,
@@ -73,10 +77,11 @@ pub(crate) struct Nodal<R = f64> {
     loads: Vec<Wrench<Vec3<R>>>,
     load_slopes: Vec<(usize, Square<R>)>,
     holds: Vec<Hold<R>>,
-    /// Where the nodes are.
+    /// Where the nodes are, from the axes' origin.
     places: Vec<Vec3<R>>,
-    /// How the variation of a node follows from that of the one after it; in its seventh column what it has by itself.
+    /// How the variation of a node, seen from where the one after it is, follows from that one's; in its seventh column what it has by itself.
     follows: Vec<Block<R>>,
+    /// How each node turns (rad) and shifts (over the length).
     pub steps: Vec<Vec6<Vec3<R>>>,
     /// Another right-hand side, where one is asked for, and its solution.
     pub others: Vec<Wrench<Vec3<R>>>,
@@ -161,9 +166,9 @@ impl Nodal {
         self.load_slopes.sort_unstable_by_key(|(node, _)| *node);
         self.holds.clear();
         for (node, end) in problem.supports() {
-            let pose = axes.frame(&state.poses[node]);
-            let curved = displacements_slope(end, &pose, self.imbalance(node)).to_rows();
-            let free = displacements(end, &pose).to_rows();
+            let turned = axes.turned(&state.poses[node]);
+            let curved = displacements_slope(end, &turned, self.imbalance(node)).to_rows();
+            let free = displacements(end, &turned).to_rows();
             self.holds.push(Hold { node, free, fixed: end.fixed.map(f64::from), curved });
         }
         let carried = self.links.iter().fold(1.0, |max: f64, link| max.max(link.carried.max_abs()));
@@ -179,14 +184,14 @@ impl Nodal {
             let (near, far) = (&state.poses[e], &state.poses[e + 1]);
             let relative = near.between(far);
             let share = lent * rod.element_length(e) / rod.length() * axes.length / axes.force;
-            let pose = Pose { rotation: far.rotation, position: far.position - axes.origin };
-            let w = state.wrenches[e];
+            let (turned, w) = (&far.rotation, state.wrenches[e]);
             let Resistance { stiffness, pull, slack } =
-                element::resistance(rod, e, w, &relative, &pose, &mut state.strains[e], share)?;
+                element::resistance(rod, e, w, &relative, turned, &mut state.strains[e], share)?;
             worst = larger(worst, largest(&axes.shift(slack).to_array()));
             let stiffness = axes.stiffness(&Mat6 { blocks: stiffness }).to_rows();
-            let carried = axes.wrench(pose.carry_wrench(w));
-            self.links.push(Link { stiffness, carried, pull: axes.wrench(pull) });
+            let arm = (far.position - near.position) * (1.0 / axes.length);
+            let carried = axes.wrench(Wrench::new(*turned * w.angular, *turned * w.linear));
+            self.links.push(Link { arm, stiffness, carried, pull: axes.wrench(pull) });
         }
         Some(worst)
     }
@@ -196,9 +201,7 @@ impl Nodal {
         self.loads.clear();
         self.load_slopes.clear();
         for (i, pose) in state.poses.iter().enumerate() {
-            let at = self.places[i];
-            let (world, body) = (axes.wrench(problem.loads.world[i]), axes.wrench(problem.loads.body[i]));
-            let mut load = Wrench::new(world.angular + at.cross(world.linear), world.linear);
+            let (mut load, body) = (axes.wrench(problem.loads.world[i]), axes.wrench(problem.loads.body[i]));
             let pulls = problem.loads.pulls_at(i);
             if body == Wrench::ZERO && pulls.is_empty() {
                 self.loads.push(load);
@@ -206,25 +209,23 @@ impl Nodal {
             }
             let mut slope = Mat6::ZERO;
             for pull in pulls {
-                let force = pull.force(pose.position) * (1.0 / axes.force);
-                load += Wrench::new(at.cross(force), force);
+                load.linear += pull.force(pose.position) * (1.0 / axes.force);
                 let by_shift = pull.slope(pose.position).scaled(axes.length / axes.force);
-                slope = slope.add(&force_slope(at, Mat3::ZERO, by_shift));
+                slope = slope.add(&force_slope(Mat3::ZERO, by_shift));
             }
             if body != Wrench::ZERO {
-                let carried = axes.frame(pose).carry_wrench(body);
+                let carried = axes.turned(pose).carry_wrench(body);
                 load += carried;
                 slope = slope.add(&element::coadjoint_by_strain(carried));
                 // The elimination adds that of every force that acts.
-                let dead = Mat6 { blocks: [dead_moment_slope(at, carried.linear), [Mat3::ZERO; 2]] };
-                slope = slope.add(&dead.scaled(-1.0));
+                slope = slope.add(&dead_moment_slope(carried.linear).scaled(-1.0));
             }
             self.loads.push(load);
             self.load_slopes.push((i, slope.to_rows()));
         }
         for (node, end) in problem.supports() {
             let Some(grip) = &end.grip else { continue };
-            let (wrench, slope) = grip_acts(grip, &state.poses[node], self.places[node], axes);
+            let (wrench, slope) = grip_acts(grip, &state.poses[node], axes);
             self.loads[node] += wrench;
             self.load_slopes.push((node, slope.to_rows()));
         }
@@ -232,11 +233,7 @@ impl Nodal {
 
     /// By what a node is out of balance, about itself, without what its hold takes.
     fn out_of_balance(&self, node: usize) -> Wrench {
-        out_of_balance(
-            self.imbalance(node),
-            self.places[node],
-            self.holds.iter().find(|hold| hold.node == node),
-        )
+        out_of_balance(self.imbalance(node), self.holds.iter().find(|hold| hold.node == node))
     }
 
     /// Takes for the other right-hand side how what acts changes on the way to another problem (`step` long), whose supports `moved` meets
@@ -251,13 +248,14 @@ impl Nodal {
     ) -> Option<()> {
         scratch.axes = self.axes;
         scratch.linearise_in_its_axes(problem, level, lent, None, moved)?;
-        let slope = |there: Wrench, here: Wrench| (there - here) * (1.0 / step);
-        let mut others = core::mem::take(&mut self.others);
-        others.clear();
-        others.extend((0..=self.links.len()).map(|i| slope(scratch.acting(i), self.acting(i))));
+        // Seen from where the node is here.
+        let slope = |node: usize, there: Wrench, here: Wrench| {
+            (about(scratch.places[node] - self.places[node], there) - here) * (1.0 / step)
+        };
+        let others = (0..=self.links.len()).map(|i| slope(i, scratch.acting(i), self.acting(i))).collect();
+        let pulls = scratch.links.iter().zip(&self.links).enumerate();
+        self.other_pulls = pulls.map(|(e, (a, b))| slope(e + 1, a.pull, b.pull)).collect();
         self.others = others;
-        self.other_pulls.clear();
-        self.other_pulls.extend(scratch.links.iter().zip(&self.links).map(|(a, b)| slope(a.pull, b.pull)));
         Some(())
     }
 
@@ -297,7 +295,7 @@ impl Nodal {
                 .poses
                 .iter()
                 .zip(motion)
-                .map(|(pose, motion)| self.axes.frame(pose).adjoint_matrix().mul_vec(*motion)),
+                .map(|(pose, motion)| self.axes.turned(pose).adjoint_matrix().mul_vec(*motion)),
         );
         let part = size / self.step_size();
         self.steps.iter_mut().for_each(|step| *step = *step * part);
@@ -306,10 +304,8 @@ impl Nodal {
     /// Makes the step the answer of the rod, as it was when the system was last solved, to a motion of its held end (in its own axes, as a
     /// [`Pose::log`]). Costs hardly more than to look at the nodes.
     pub fn step_with_end(&mut self, end: &Pose, motion: Vec6) {
-        let last = self.links.len();
         let turn = end.rotation * motion.angular;
-        let shift = end.rotation * motion.linear * (1.0 / self.axes.length);
-        self.answer_to_end(Vec6::new(turn, shift - turn.cross(self.places[last])));
+        self.answer_to_end(Vec6::new(turn, end.rotation * motion.linear * (1.0 / self.axes.length)));
     }
 
     /// Forgets what it was last solved for.
@@ -349,12 +345,12 @@ impl Kernel for Take<'_> {
         let Self { nodal, part, state } = self;
         let axes = nodal.axes;
         for (e, link) in nodal.links.iter().enumerate() {
-            let far = axes.frame(&state.poses[e + 1]);
-            let change = link.change(nodal.steps[e], nodal.steps[e + 1], part, &far);
+            let far = &state.poses[e + 1].rotation;
+            let change = link.change(nodal.steps[e], nodal.steps[e + 1], part, far);
             state.wrenches[e] += axes.in_units(change);
         }
         for (i, pose) in state.poses.iter_mut().enumerate() {
-            let moved = along_screw(nodal.steps[i], part, nodal.places[i]);
+            let moved = Pose::exp(nodal.steps[i] * part);
             *pose = Pose {
                 rotation: moved.rotation * pose.rotation,
                 position: pose.position + moved.position * axes.length,
@@ -363,41 +359,37 @@ impl Kernel for Take<'_> {
     }
 }
 
-/// How a node at a place turns and shifts by a part of a step: along a screw, so that a whole rod that turns does not grow.
+/// A wrench about a place `arm` further on, about here.
 #[inline(always)]
-fn along_screw<R: Real>(step: Vec6<Vec3<R>>, part: R, place: Vec3<R>) -> Pose<Vec3<R>> {
-    let step = step * part;
-    Pose::exp(Vec6::new(step.angular, step.linear + step.angular.cross(place)))
+fn about<R: Real>(arm: Vec3<R>, wrench: Wrench<Vec3<R>>) -> Wrench<Vec3<R>> {
+    Wrench::new(wrench.angular + arm.cross(wrench.linear), wrench.linear)
 }
 
 impl<R: Real> Link<R> {
-    /// How the wrench that it carries changes when its nodes take a part of their steps, in the frame of its far node.
+    /// How the wrench that it carries changes when its nodes take a part of their steps, in the frame of its far node, which is turned so.
     #[inline(always)]
     fn change(
         &self,
         near: Vec6<Vec3<R>>,
         far: Vec6<Vec3<R>>,
         part: R,
-        frame: &Pose<Vec3<R>>,
+        turned: &Mat3<Vec3<R>>,
     ) -> Wrench<Vec3<R>> {
-        let apart = parts(far - near);
+        let turn = far.angular - near.angular;
+        let shift = far.linear - near.linear + self.arm.cross(near.angular);
+        let apart = parts(Vec6::new(turn, shift));
         let mut force = [R::zero(); 6];
         for (force, row) in force.iter_mut().zip(&self.stiffness) {
             *force = (row[0] * apart[0] + row[1] * apart[1])
                 + (row[2] * apart[2] + row[3] * apart[3])
                 + (row[4] * apart[4] + row[5] * apart[5]);
         }
-        frame.inverse().carry_wrench((pair(force) + self.pull) * part)
+        let change = (pair(force) + self.pull) * part;
+        Wrench::new(turned.transpose_mul(change.angular), turned.transpose_mul(change.linear))
     }
 }
 
 impl<R: Real> Nodal<R> {
-    /// How a node turns (rad) and shifts (over the length) by a step in the fixed axes.
-    #[inline(always)]
-    pub fn motion(&self, node: usize, step: &Vec6<Vec3<R>>) -> Vec6<Vec3<R>> {
-        Vec6::new(step.angular, step.linear + step.angular.cross(self.places[node]))
-    }
-
     /// How far, as a drag, round-off may move the eigenvalues of the system that is solved (over `EI/L³`).
     #[inline(always)]
     pub fn round_off(&self) -> R {
@@ -416,9 +408,8 @@ impl<R: Real> Nodal<R> {
     pub fn stiffness_along_step(&self) -> R {
         let (mut work, mut size) = (R::zero(), R::zero());
         for (i, step) in self.steps.iter().enumerate() {
-            let motion = self.motion(i, step);
             work += step.dot(self.acting(i));
-            size += motion.angular.dot(motion.angular) * R::splat(TURNING) + motion.linear.dot(motion.linear);
+            size += step.angular.dot(step.angular) * R::splat(TURNING) + step.linear.dot(step.linear);
         }
         work * R::splat(self.links.len() as f64) / size
     }
@@ -427,10 +418,9 @@ impl<R: Real> Nodal<R> {
     #[inline(always)]
     pub fn step_size(&self) -> R {
         let mut squared = R::zero();
-        for (i, step) in self.steps.iter().enumerate() {
-            let motion = self.motion(i, step);
-            squared = larger(squared, motion.angular.dot(motion.angular));
-            squared = larger(squared, motion.linear.dot(motion.linear) * R::splat(4.0));
+        for step in &self.steps {
+            squared = larger(squared, step.angular.dot(step.angular));
+            squared = larger(squared, step.linear.dot(step.linear) * R::splat(4.0));
         }
         squared.sqrt()
     }
@@ -440,26 +430,16 @@ impl<R: Real> Nodal<R> {
     fn answer_to_end(&mut self, end: Vec6<Vec3<R>>) {
         let last = self.links.len();
         self.steps[last] = end;
-        let mut x = parts(end);
         for i in (0..last).rev() {
-            let mut next = [R::zero(); 6];
-            for (next, row) in next.iter_mut().zip(&self.follows[i]) {
-                *next = row[0] * x[0]
-                    + row[1] * x[1]
-                    + row[2] * x[2]
-                    + row[3] * x[3]
-                    + row[4] * x[4]
-                    + row[5] * x[5];
-            }
-            self.steps[i] = pair(next);
-            x = next;
+            let next = answer(&self.follows[i], &parts(self.steps[i + 1]));
+            self.steps[i] = seen_from_near(&self.links[i].arm, pair(next));
         }
         for link in &mut self.links {
             link.pull = Wrench::zero();
         }
     }
 
-    /// The wrench that acts on a node, in the fixed axes; at a held node the opposite of the reaction.
+    /// The wrench that acts on a node, about it; at a held node the opposite of the reaction.
     #[inline(always)]
     fn imbalance(&self, node: usize) -> Wrench<Vec3<R>> {
         between_links(self.loads[node], &self.links, node, |link| link.carried)
@@ -487,7 +467,7 @@ fn between_links<R: Real>(
     exerted: impl Fn(&Link<R>) -> Wrench<Vec3<R>>,
 ) -> Wrench<Vec3<R>> {
     if let Some(link) = links.get(node) {
-        wrench += exerted(link);
+        wrench += about(link.arm, exerted(link));
     }
     if node > 0 {
         wrench -= exerted(&links[node - 1]);
@@ -509,39 +489,28 @@ impl<R: Real> Hold<R> {
     }
 }
 
-/// By what acts on a node at a place, without what its hold takes.
+/// By what acts on a node, without what its hold takes.
 #[inline(always)]
-fn out_of_balance<R: Real>(acts: Wrench<Vec3<R>>, place: Vec3<R>, hold: Option<&Hold<R>>) -> Wrench<Vec3<R>> {
-    match hold {
-        Some(hold) => hold.along_free(acts),
-        None => Wrench::new(acts.angular - place.cross(acts.linear), acts.linear),
-    }
+fn out_of_balance<R: Real>(acts: Wrench<Vec3<R>>, hold: Option<&Hold<R>>) -> Wrench<Vec3<R>> {
+    hold.map_or(acts, |hold| hold.along_free(acts))
 }
 
-/// How the moment about the origin of a dead force at a place changes with the frame there: by its turn and by its shift.
-#[inline(always)]
-fn dead_moment_slope<R: Real>(at: Vec3<R>, force: Vec3<R>) -> [Mat3<Vec3<R>>; 2] {
-    let force = Mat3::hat(force);
-    [force * Mat3::hat(at), force.scaled(-R::one())]
+/// How the moment about a place of a dead force there changes with the frame.
+fn dead_moment_slope(force: Vec3) -> Mat6 {
+    Mat6 { blocks: [[Mat3::ZERO, Mat3::hat(force).scaled(-1.0)], [Mat3::ZERO; 2]] }
 }
 
-/// How a wrench at a place, its moment about the origin, changes with the frame there beside what it does as a dead one, where its moment about the
-/// place changes by so much with the turn, and its force with the shift, by a symmetric matrix.
+/// How a wrench at a frame changes with that, beside what it does as a dead one, where its moment changes by so much with the turn, and its force with the
+/// shift.
 #[inline]
-fn force_slope(at: Vec3, by_turn: Mat3, by_shift: Mat3) -> Mat6 {
-    let across = |matrix: &Mat3| Mat3 { cols: matrix.cols.map(|column| at.cross(column)) };
-    let by_arm = across(&by_shift);
-    let force = [by_arm.transpose(), by_shift];
-    let moment = [by_turn + across(&force[0]), by_arm];
-    Mat6 { blocks: [moment, force] }
+fn force_slope(by_turn: Mat3, by_shift: Mat3) -> Mat6 {
+    Mat6 { blocks: [[by_turn, Mat3::ZERO], [Mat3::ZERO, by_shift]] }
 }
 
-/// What a grip exerts on a frame at a place, its moment about the origin, and how that changes with the frame.
-fn grip_acts(grip: &Grip, pose: &Pose, at: Vec3, axes: &Axes) -> (Wrench, Mat6) {
-    let wrench = axes.wrench(grip.wrench(pose));
+/// What a grip exerts on a frame, about it, and how that changes with the frame.
+fn grip_acts(grip: &Grip, pose: &Pose, axes: &Axes) -> (Wrench, Mat6) {
     let (by_turn, by_shift) = grip.stiffness(pose);
     let by_turn = by_turn.scaled(1.0 / axes.moment) * pose.rotation.transpose();
-    let by_shift = by_shift.scaled(axes.length / axes.force);
-    let acts = Wrench::new(wrench.angular + at.cross(wrench.linear), wrench.linear);
-    (acts, force_slope(at, by_turn, by_shift))
+    let slope = force_slope(by_turn, by_shift.scaled(axes.length / axes.force));
+    (axes.wrench(grip.wrench(pose)), slope)
 }

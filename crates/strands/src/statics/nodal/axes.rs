@@ -30,6 +30,11 @@ impl Axes {
         (position - self.origin) * (1.0 / self.length)
     }
 
+    /// A frame as seen from where it is.
+    pub(super) fn turned(&self, pose: &Pose) -> Pose {
+        Pose { rotation: pose.rotation, position: Vec3::ZERO }
+    }
+
     pub(super) fn frame(&self, pose: &Pose) -> Pose {
         Pose { rotation: pose.rotation, position: self.at(pose.position) }
     }

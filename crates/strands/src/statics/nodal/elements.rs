@@ -20,8 +20,9 @@ struct Elements {
     wrench: Wrench<Side>,
     /// The exponents between their frames.
     x: Vec6<Side>,
-    /// The poses of their far nodes.
-    far: Pose<Side>,
+    /// How their far nodes are turned, and from the near ones to them.
+    turned: Mat3<Side>,
+    arm: Side,
 }
 
 impl Elements {
@@ -30,8 +31,7 @@ impl Elements {
     fn gather(rod: &Rod, points: &[DiagonalPoint], axes: &Axes, state: &Record, first: usize) -> Self {
         let [mut compliance, mut rest, mut wrench] = [Vec6::<Side>::zero(); 3];
         let mut near = Mat3 { cols: [Side::zero(); 3] };
-        let mut far = Pose { rotation: near, position: Side::zero() };
-        let mut apart = Side::zero();
+        let (mut turned, mut arm) = (near, Side::zero());
         for i in 0..BATCH {
             let e = (first + i).min(rod.elements() - 1);
             let point = &points[e];
@@ -39,14 +39,15 @@ impl Elements {
             rest.put(i, axes.shift(point.rest));
             wrench.put(i, axes.wrench(state.wrenches[e]));
             let (a, b) = (&state.poses[e], &state.poses[e + 1]);
-            (0..3).for_each(|k| near.cols[k].put(i, a.rotation.cols[k]));
-            far.put(i, &axes.frame(b));
+            for k in 0..3 {
+                near.cols[k].put(i, a.rotation.cols[k]);
+                turned.cols[k].put(i, b.rotation.cols[k]);
+            }
             // Of the places as they are: round-off in others would be seen through the stiffness against stretching.
-            apart.put(i, (b.position - a.position) * (1.0 / axes.length));
+            arm.put(i, (b.position - a.position) * (1.0 / axes.length));
         }
-        let relative =
-            Pose { rotation: near.transpose() * far.rotation, position: near.transpose_mul(apart) };
-        Self { compliance, rest, wrench, x: logs(&relative), far }
+        let relative = Pose { rotation: near.transpose() * turned, position: near.transpose_mul(arm) };
+        Self { compliance, rest, wrench, x: logs(&relative), turned, arm }
     }
 }
 
@@ -67,7 +68,7 @@ impl Kernel for TakeStrains<'_> {
     #[inline(always)]
     fn run(self) {
         let Self { rod, points, state } = self;
-        let axes = Axes { origin: state.poses[0].position, ..Axes::default() };
+        let axes = Axes::default();
         for first in (0..rod.elements()).step_by(BATCH) {
             let Elements { compliance, rest, wrench, x, .. } =
                 Elements::gather(rod, points, &axes, state, first);
@@ -99,12 +100,12 @@ impl Kernel for Linearise<'_> {
         let n = rod.elements();
         let mut worst = 0.0;
         for first in (0..n).step_by(BATCH) {
-            let Elements { compliance, rest, wrench, x, far } =
+            let Elements { compliance, rest, wrench, x, turned, arm } =
                 Elements::gather(rod, points, axes, state, first);
             let share = Lanes::from_fn(|i| lent * rod.element_length((first + i).min(n - 1)) / rod.length());
             let Resistance { stiffness, pull, slack } =
-                diagonal_resistance(compliance, rest, share, x, wrench, &far);
-            let carried = far.carry_wrench(wrench);
+                diagonal_resistance(compliance, rest, share, x, wrench, &turned);
+            let carried = Wrench::new(turned * wrench.angular, turned * wrench.linear);
             for i in 0..BATCH.min(n - first) {
                 let mut rows = [[0.0; 6]; 6];
                 for r in 0..6 {
@@ -114,7 +115,8 @@ impl Kernel for Linearise<'_> {
                     }
                 }
                 worst = larger(worst, largest(&slack.lane(i).to_array()));
-                links.push(Link { stiffness: rows, carried: carried.lane(i), pull: pull.lane(i) });
+                let (arm, carried, pull) = (arm.lane(i), carried.lane(i), pull.lane(i));
+                links.push(Link { arm, stiffness: rows, carried, pull });
             }
         }
         worst

@@ -4,7 +4,7 @@
 
 use super::second_variation::TURNING;
 use super::{Hold, Link, Nodal, acting};
-use crate::math::{Kernel, Mat3, Real, Register, Vec3, Vec6, Vector, Wrench};
+use crate::math::{Kernel, Real, Register, Vec3, Vec6, Wrench};
 
 /// A pivot below this part of its block's diagonal is none.
 pub(super) const SMALLEST_PIVOT: f64 = 1e-15;
@@ -40,8 +40,7 @@ impl<R: Register> Kernel for Eliminate<'_, R> {
         let n = nodal.links.len();
         nodal.follows.resize(n + 1, [[R::zero(); 8]; 6]);
         nodal.steps.resize(n + 1, Vec6::zero());
-        let Nodal { links, loads, load_slopes, holds, places, follows, steps, others, other_steps, .. } =
-            nodal;
+        let Nodal { links, loads, load_slopes, holds, follows, steps, others, other_steps, .. } = nodal;
         let columns = if others.is_empty() { OTHER } else { OTHER + 1 };
         let mut inertia = Inertia { negative: R::zero(), vanished: R::zero() };
         // What the nodes before take from the pivot, and add to what acts. One rod starts from the former, negated; several subtract it. So too one
@@ -59,12 +58,9 @@ impl<R: Register> Kernel for Eliminate<'_, R> {
                 }
             }
             if !no_drag {
-                add_drag(&mut pivot, places[i], drag);
+                add_drag(&mut pivot, drag);
             }
-            subtract_dead_moment_slope(&mut pivot, places[i], loads[i].linear);
-            if let Some(after) = links.get(i) {
-                add(&mut pivot, &after.stiffness);
-            }
+            subtract_dead_moment_slope(&mut pivot, loads[i].linear);
             if i > 0 {
                 add(&mut pivot, &on_far(&links[i - 1]));
             }
@@ -89,6 +85,8 @@ impl<R: Register> Kernel for Eliminate<'_, R> {
             }
             match links.get(i) {
                 Some(after) => {
+                    see_from(&after.arm, &mut pivot, right);
+                    add(&mut pivot, &after.stiffness);
                     let upper = on_far(after);
                     for r in 0..6 {
                         right[r][..6].copy_from_slice(&upper[r]);
@@ -104,11 +102,11 @@ impl<R: Register> Kernel for Eliminate<'_, R> {
             if let Some(hold) = hold {
                 next_hold += 1;
                 // Few nodes are held: out of the way of the others' registers.
-                R::run(Restrict { hold, pivot: &mut pivot, right });
+                R::run(Restrict { hold, after: links.get(i), pivot: &mut pivot, right });
             }
             reduce(&mut pivot, right, columns, &mut inertia);
             if let Some(hold) = hold {
-                R::run(Expand { hold, follow: right });
+                R::run(Expand { hold, after: links.get(i), follow: right });
             }
             if let Some(after) = links.get(i) {
                 to_next(&after.stiffness, right, columns, &mut earlier);
@@ -117,11 +115,11 @@ impl<R: Register> Kernel for Eliminate<'_, R> {
                 follows[i] = local;
             }
         }
-        put_together(follows, ACTING, steps);
+        put_together(links, follows, ACTING, steps);
         other_steps.clear();
         if !others.is_empty() {
             other_steps.resize(n + 1, Vec6::zero());
-            put_together(follows, OTHER, other_steps);
+            put_together(links, follows, OTHER, other_steps);
         }
         inertia
     }
@@ -129,18 +127,83 @@ impl<R: Register> Kernel for Eliminate<'_, R> {
 
 /// Each node's step from that of the one after it.
 #[inline(always)]
-fn put_together<R: Real>(follows: &[Block<R>], column: usize, steps: &mut [Vec6<Vec3<R>>]) {
+fn put_together<R: Real>(
+    links: &[Link<R>],
+    follows: &[Block<R>],
+    column: usize,
+    steps: &mut [Vec6<Vec3<R>>],
+) {
     let mut x = [R::zero(); 6];
-    for (follow, step) in follows.iter().zip(steps).rev() {
-        let mut next = [R::zero(); 6];
-        for (next, row) in next.iter_mut().zip(follow) {
-            *next = row[column]
-                + ((row[0] * x[0] + row[1] * x[1]) + (row[2] * x[2] + row[3] * x[3]))
-                + (row[4] * x[4] + row[5] * x[5]);
+    for i in (0..follows.len()).rev() {
+        let mut next = answer(&follows[i], &x);
+        for (next, row) in next.iter_mut().zip(&follows[i]) {
+            *next += row[column];
         }
-        *step = pair(next);
-        x = next;
+        steps[i] = match links.get(i) {
+            Some(after) => seen_from_near(&after.arm, pair(next)),
+            None => pair(next),
+        };
+        x = parts(steps[i]);
     }
+}
+
+/// How a node, seen from the place of the one after it, answers to that one's motion.
+#[inline(always)]
+pub(super) fn answer<R: Real>(follow: &Block<R>, x: &[R; 6]) -> [R; 6] {
+    let mut next = [R::zero(); 6];
+    for (next, row) in next.iter_mut().zip(follow) {
+        *next = ((row[0] * x[0] + row[1] * x[1]) + (row[2] * x[2] + row[3] * x[3]))
+            + (row[4] * x[4] + row[5] * x[5]);
+    }
+    next
+}
+
+/// A variation seen from a place `arm` further on, seen from here.
+#[inline(always)]
+pub(super) fn seen_from_near<R: Real>(arm: &Vec3<R>, x: Vec6<Vec3<R>>) -> Vec6<Vec3<R>> {
+    Vec6::new(x.angular, x.linear + arm.cross(x.angular))
+}
+
+/// Takes the equations of a node's variation, seen from its place, for those seen from a place `arm` further on: of the pivot `T⁻ᵀ P T⁻¹` with
+/// `T (θ, s) = (θ, s + θ × arm)`, of what acts `T⁻ᵀ b`.
+#[inline(always)]
+fn see_from<R: Real>(arm: &Vec3<R>, pivot: &mut Square<R>, right: &mut Block<R>) {
+    see_columns_from(arm, pivot);
+    for c in 0..6 {
+        let [a, b, d] = crossed(arm, pivot[3][c], pivot[4][c], pivot[5][c]);
+        pivot[0][c] -= a;
+        pivot[1][c] -= b;
+        pivot[2][c] -= d;
+    }
+    for c in [ACTING, OTHER] {
+        let [a, b, d] = crossed(arm, right[3][c], right[4][c], right[5][c]);
+        right[0][c] -= a;
+        right[1][c] -= b;
+        right[2][c] -= d;
+    }
+}
+
+/// `P T⁻¹`.
+#[inline(always)]
+fn see_columns_from<R: Real>(arm: &Vec3<R>, pivot: &mut Square<R>) {
+    for row in pivot {
+        let [a, b, d] = crossed(arm, row[3], row[4], row[5]);
+        row[0] -= a;
+        row[1] -= b;
+        row[2] -= d;
+    }
+}
+
+#[inline(always)]
+fn crossed<R: Real>(arm: &Vec3<R>, x: R, y: R, z: R) -> [R; 3] {
+    [arm.y * z - arm.z * y, arm.z * x - arm.x * z, arm.x * y - arm.y * x]
+}
+
+/// A block that resists a variation seen from some place, for that seen from a place `arm` further on.
+pub(super) fn block_from(arm: &Vec3, block: &Square<f64>) -> Square<f64> {
+    let (mut moved, mut none) = (*block, [[0.0; 8]; 6]);
+    see_from(arm, &mut moved, &mut none);
+    moved
 }
 
 #[inline(always)]
@@ -171,21 +234,9 @@ pub(super) fn subtract<R: Real, const COLUMNS: usize>(from: &mut Square<R>, bloc
     }
 }
 
-/// Subtracts [`dead_moment_slope`](super::dead_moment_slope).
+/// Subtracts how the moment about a place of a dead force there changes with a shift of that: `−f^`.
 #[inline(always)]
-pub(super) fn subtract_dead_moment_slope<R: Real>(from: &mut Square<R>, at: Vec3<R>, force: Vec3<R>) {
-    // Of two vectors `a^ b^ = b aᵀ − a·b`.
-    let ([x, y, z], [a, b, c]) = ([at.x, at.y, at.z], [force.x, force.y, force.z]);
-    let (xa, yb, zc) = (x * a, y * b, z * c);
-    from[0][0] += yb + zc;
-    from[1][1] += xa + zc;
-    from[2][2] += xa + yb;
-    from[0][1] -= x * b;
-    from[0][2] -= x * c;
-    from[1][0] -= y * a;
-    from[1][2] -= y * c;
-    from[2][0] -= z * a;
-    from[2][1] -= z * b;
+pub(super) fn subtract_dead_moment_slope<R: Real>(from: &mut Square<R>, force: Vec3<R>) {
     minus_hat(from, 0, 3, -force);
 }
 
@@ -216,27 +267,13 @@ fn minus_hat<R: Real>(block: &mut Square<R>, r: usize, c: usize, v: Vec3<R>) {
     block[r + 2][c + 1] -= v.x;
 }
 
-/// The drag on a node that turns and shifts: `|η + θ × p|² + TURNING |θ|²`.
+/// The drag on a node that turns and shifts: `|s|² + TURNING |θ|²`.
 #[inline(always)]
-fn add_drag<R: Real>(pivot: &mut Square<R>, p: Vec3<R>, drag: R) {
-    let arm = Mat3::hat(p);
-    let turning = R::splat(TURNING);
-    let squared = arm * arm;
+fn add_drag<R: Real>(pivot: &mut Square<R>, drag: R) {
     for r in 0..3 {
-        for c in 0..3 {
-            let arm = drag * component(arm.cols[c], r);
-            pivot[r][c] -= drag * component(squared.cols[c], r);
-            pivot[r][3 + c] += arm;
-            pivot[3 + r][c] -= arm;
-        }
-        pivot[r][r] += drag * turning;
+        pivot[r][r] += drag * R::splat(TURNING);
         pivot[3 + r][3 + r] += drag;
     }
-}
-
-#[inline(always)]
-fn component<R: Real>(v: Vec3<R>, i: usize) -> R {
-    Vector::parts(v)[i]
 }
 
 /// Solves the six equations for as many right-hand sides, in place, without interchange: the signs of the pivots are wanted, and where all are
@@ -379,6 +416,7 @@ pub(super) fn transposed<R: Real>(a: &Square<R>) -> Square<R> {
 /// Turns a held node's equations into such for its free displacements; those that are fixed are zero.
 struct Restrict<'a, R> {
     hold: &'a Hold<R>,
+    after: Option<&'a Link<R>>,
     pivot: &'a mut Square<R>,
     right: &'a mut Block<R>,
 }
@@ -388,10 +426,11 @@ impl<R: Real> Kernel for Restrict<'_, R> {
 
     #[inline(always)]
     fn run(self) {
-        let Self { hold, pivot, right } = self;
-        let t = transposed(&hold.free);
+        let Self { hold, after, pivot, right } = self;
+        let free = hold.free_seen_from(after);
+        let t = transposed(&free);
         *right = product(&t, right);
-        let held = product(&t, &product(pivot, &hold.free));
+        let held = product(&t, &product(pivot, &free));
         for r in 0..6 {
             for c in 0..6 {
                 pivot[r][c] = held[r][c] + hold.curved[r][c];
@@ -404,6 +443,7 @@ impl<R: Real> Kernel for Restrict<'_, R> {
 /// From the free displacements of a held node to the variation of its frame.
 struct Expand<'a, R> {
     hold: &'a Hold<R>,
+    after: Option<&'a Link<R>>,
     follow: &'a mut Block<R>,
 }
 
@@ -412,6 +452,23 @@ impl<R: Real> Kernel for Expand<'_, R> {
 
     #[inline(always)]
     fn run(self) {
-        *self.follow = product(&self.hold.free, self.follow);
+        *self.follow = product(&self.hold.free_seen_from(self.after), self.follow);
+    }
+}
+
+impl<R: Real> Hold<R> {
+    /// The free displacements, seen from the far end of the element after the node.
+    #[inline(always)]
+    fn free_seen_from(&self, after: Option<&Link<R>>) -> Square<R> {
+        let mut free = self.free;
+        if let Some(Link { arm, .. }) = after {
+            for c in 0..6 {
+                let [a, b, d] = crossed(arm, free[0][c], free[1][c], free[2][c]);
+                free[3][c] -= a;
+                free[4][c] -= b;
+                free[5][c] -= d;
+            }
+        }
+        free
     }
 }

@@ -4,7 +4,7 @@ use super::super::march::Record;
 use super::super::problem::Problem;
 use super::{Axes, Distance, Nodal, force_slope};
 use crate::element::DiagonalPoint;
-use crate::math::{Mat3, Mat6, SimdLevel, Vec3, Wrench};
+use crate::math::{Mat3, Mat6, SimdLevel, Wrench};
 
 /// What motion adds to a rod at rest.
 pub(crate) struct Motion<'a> {
@@ -55,25 +55,22 @@ impl Nodal {
     /// Adds what the change of its momentum exerts on each node.
     pub(super) fn move_with(&mut self, inertial: &[Inertial], axes: &Axes) {
         for (i, node) in inertial.iter().enumerate() {
-            let (at, exerts) = (self.places[i], axes.wrench(node.exerts));
-            self.loads[i] += Wrench::new(exerts.angular + at.cross(exerts.linear), exerts.linear);
-            self.load_slopes.push((i, node.slope(at, axes).to_rows()));
+            self.loads[i] += axes.wrench(node.exerts);
+            self.load_slopes.push((i, node.slope(axes).to_rows()));
         }
     }
 
     /// What acts on a node that is out of balance, in the world about itself: what its support bears, with the opposite sign, or what is left of a
     /// search.
     pub fn left_over(&self, node: usize) -> Wrench {
-        let w = self.imbalance(node);
-        self.axes.in_units(Wrench::new(w.angular - self.places[node].cross(w.linear), w.linear))
+        self.axes.in_units(self.imbalance(node))
     }
 }
 
 impl Inertial {
-    /// How what is exerted at a place changes with the frame there, in some axes.
+    /// How what is exerted changes with the frame, in some axes.
     #[inline]
-    pub(super) fn slope(&self, at: Vec3, axes: &Axes) -> Mat6 {
-        let by_turn = self.by_turn.scaled(1.0 / axes.moment);
-        force_slope(at, by_turn, self.by_shift.scaled(axes.length / axes.force))
+    pub(super) fn slope(&self, axes: &Axes) -> Mat6 {
+        force_slope(self.by_turn.scaled(1.0 / axes.moment), self.by_shift.scaled(axes.length / axes.force))
     }
 }

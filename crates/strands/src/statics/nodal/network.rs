@@ -6,10 +6,10 @@
 //! possible when it is its turn (minimum degree): a tree from its leaves inwards, without a block more than it has.
 
 use super::elimination::{
-    SMALLEST_PIVOT, Square, add, on_far, pair, parts, product, subtract, subtract_dead_moment_slope,
-    transposed,
+    SMALLEST_PIVOT, Square, add, block_from, on_far, pair, parts, product, seen_from_near, subtract,
+    subtract_dead_moment_slope, transposed,
 };
-use super::{Axes, Inertial, Nodal, along_screw, grip_acts, out_of_balance};
+use super::{Axes, Inertial, Nodal, about, grip_acts};
 use crate::assembly::{Assembly, Body, Member, Ties};
 use crate::math::{Kernel, Pose, SimdLevel, Vec3, Vec6, Wrench, dispatch, larger};
 use crate::statics::Support;
@@ -33,7 +33,7 @@ const IDENTITY: Square<f64> = {
 struct FreeFrame {
     place: Vec3,
     load: Wrench,
-    slope: Square<f64>,
+    resists: Square<f64>,
     unsure: f64,
 }
 
@@ -231,16 +231,20 @@ impl Network {
 
     /// Takes what acts on the next body. Of the forces on it so much (N) is not known for round-off, which is to be within the tolerance.
     pub fn add_body(&mut self, body: &Body, pose: &Pose, inertial: &Inertial, unsure: f64) {
-        let (axes, at) = (self.axes, self.axes.at(pose.position));
-        let acts = axes.wrench(body.load + inertial.exerts);
-        let mut load = Wrench::new(acts.angular + at.cross(acts.linear), acts.linear);
-        let mut slope = inertial.slope(at, &axes);
+        let axes = self.axes;
+        let mut load = axes.wrench(body.load + inertial.exerts);
+        let mut slope = inertial.slope(&axes);
         if let Some(grip) = body.support.as_ref().and_then(|support| support.grip.as_ref()) {
-            let (wrench, by_frame) = grip_acts(grip, pose, at, &axes);
+            let (wrench, by_frame) = grip_acts(grip, pose, &axes);
             load += wrench;
             slope = slope.add(&by_frame);
         }
-        self.free.push(FreeFrame { place: at, load, slope: slope.to_rows(), unsure: unsure / axes.force });
+        let place = axes.at(pose.position);
+        let mut resists = NONE;
+        subtract_dead_moment_slope(&mut resists, load.linear);
+        subtract(&mut resists, &slope.to_rows());
+        let resists = block_from(&-place, &resists);
+        self.free.push(FreeFrame { place, load: about(place, load), resists, unsure: unsure / axes.force });
     }
 
     /// Puts the rods' systems and the bodies' together. Gives the largest force (over `EI/L²`) and moment (over `EI/L`) by which an unknown is out of
@@ -263,11 +267,8 @@ impl Network {
         }
         for body in 0..self.bodies.len() {
             let frame = self.first_body + body;
-            let FreeFrame { place, load, slope, unsure } = self.free[body];
-            let mut block = NONE;
-            subtract_dead_moment_slope(&mut block, place, load.linear);
-            subtract(&mut block, &slope);
-            self.add_block(frame, frame, &block);
+            let FreeFrame { load, resists, unsure, .. } = self.free[body];
+            self.add_block(frame, frame, &resists);
             self.add_right(frame, load);
             self.weigh_unknowns(frame, load, unsure);
         }
@@ -284,26 +285,29 @@ impl Network {
         for node in 0..=nodal.links.len() {
             let frame = first + node;
             let mut block = NONE;
-            subtract_dead_moment_slope(&mut block, nodal.places[node], nodal.loads[node].linear);
-            if let Some(after) = nodal.links.get(node) {
-                add(&mut block, &after.stiffness);
-                self.add_block(frame, frame + 1, &negative(&on_far(after)));
-                self.add_block(frame + 1, frame, &negative(&after.stiffness));
-            }
+            subtract_dead_moment_slope(&mut block, nodal.loads[node].linear);
             if node > 0 {
                 add(&mut block, &on_far(&nodal.links[node - 1]));
             }
             while let Some((_, slope)) = slopes.next_if(|(at, _)| *at == node) {
                 subtract(&mut block, slope);
             }
+            let mut block = block_from(&-nodal.places[node], &block);
+            if let Some(after) = nodal.links.get(node) {
+                let to_origin = -nodal.places[node + 1];
+                let near = block_from(&to_origin, &after.stiffness);
+                add(&mut block, &near);
+                self.add_block(frame, frame + 1, &negative(&block_from(&to_origin, &on_far(after))));
+                self.add_block(frame + 1, frame, &negative(&near));
+            }
             self.add_block(frame, frame, &block);
-            self.add_right(frame, nodal.acting(node));
+            self.add_right(frame, about(nodal.places[node], nodal.acting(node)));
         }
         // In the rod's own units: a thick trunk's round-off is not a twig's imbalance.
         let own = assembly.strands[rod].problem.rod.scale().force / self.axes.force;
         let carried = nodal.links.iter().fold(own, |max: f64, link| max.max(link.carried.max_abs()));
         for node in 0..=nodal.links.len() {
-            self.weigh_unknowns(first + node, nodal.imbalance(node), carried);
+            self.weigh_unknowns(first + node, about(nodal.places[node], nodal.imbalance(node)), carried);
         }
     }
 
@@ -311,7 +315,8 @@ impl Network {
     fn weigh<'a>(&mut self, nodals: impl Iterator<Item = &'a Nodal>) {
         self.borne.clear();
         for nodal in nodals {
-            self.borne.extend((0..=nodal.links.len()).map(|node| nodal.imbalance(node)));
+            let imbalance = |node: usize| about(nodal.places[node], nodal.imbalance(node));
+            self.borne.extend((0..=nodal.links.len()).map(imbalance));
         }
         self.borne.extend(self.free.iter().map(|body| body.load));
         for &(child, parent, _) in self.hanging.iter().rev() {
@@ -393,8 +398,8 @@ impl Network {
             let of = &mut self.imbalance[*unknown];
             self.scale[*unknown] = self.scale[*unknown].max(carried);
             if *whole {
-                let about = parts(out_of_balance(acts, self.abouts[*unknown], None));
-                of.iter_mut().zip(about).for_each(|(of, acts)| *of += acts);
+                let acts = parts(about(-self.abouts[*unknown], acts));
+                of.iter_mut().zip(acts).for_each(|(of, acts)| *of += acts);
             } else {
                 for (acts, motions) in parts(acts).iter().zip(motions) {
                     of.iter_mut().zip(motions).for_each(|(of, motion)| *of += motion * acts);
@@ -456,34 +461,35 @@ impl Network {
         let (negative, vanished) = dispatch(level, EliminateNetwork { network: self });
         for (nodal, (_, first)) in nodals.zip(&self.rods) {
             nodal.steps.clear();
-            nodal.steps.extend((0..=nodal.links.len()).map(|node| self.variation(first + node)));
+            let steps = nodal.places.iter().enumerate();
+            nodal.steps.extend(steps.map(|(node, place)| self.variation(first + node, place)));
         }
-        self.free_steps = (0..self.bodies.len()).map(|body| self.variation(self.first_body + body)).collect();
+        let bodies = self.free.iter().enumerate();
+        self.free_steps =
+            bodies.map(|(body, free)| self.variation(self.first_body + body, &free.place)).collect();
         (!vanished).then_some(negative)
     }
 
-    fn variation(&self, frame: usize) -> Vec6 {
+    /// How a frame at a place turns and shifts.
+    fn variation(&self, frame: usize, place: &Vec3) -> Vec6 {
         let mut variation = [0.0; 6];
         for Term { unknown, motions, .. } in &self.terms[self.terms_of[frame].clone()] {
             for (variation, row) in variation.iter_mut().zip(motions) {
                 *variation += row.iter().zip(&self.right[*unknown]).map(|(a, x)| a * x).sum::<f64>();
             }
         }
-        pair(variation)
+        seen_from_near(&-*place, pair(variation))
     }
 
     /// The largest turn (rad) and shift (over half a length) of a body in the step.
     pub fn step_size(&self) -> f64 {
-        let size = |(step, body): (&Vec6, &FreeFrame)| {
-            let shift = step.linear + step.angular.cross(body.place);
-            step.angular.norm().max(2.0 * shift.norm())
-        };
-        self.free_steps.iter().zip(&self.free).map(size).fold(0.0, larger)
+        let size = |step: &Vec6| step.angular.norm().max(2.0 * step.linear.norm());
+        self.free_steps.iter().map(size).fold(0.0, larger)
     }
 
     /// A body's pose after a part of the step.
     pub fn taken(&self, body: usize, part: f64, pose: &Pose) -> Pose {
-        let moved = along_screw(self.free_steps[body], part, self.free[body].place);
+        let moved = Pose::exp(self.free_steps[body] * part);
         Pose {
             rotation: moved.rotation * pose.rotation,
             position: pose.position + moved.position * self.axes.length,

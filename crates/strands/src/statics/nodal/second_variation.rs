@@ -17,7 +17,7 @@
 use super::super::problem::Problem;
 use super::{Axes, Hold, Nodal, Record, dead_moment_slope};
 use crate::element;
-use crate::math::{Ldl, Mat3, Mat6, Pose, Vec3, Vec6, largest, ldl, lu};
+use crate::math::{Ldl, Mat6, Pose, Vec3, Vec6, largest, ldl, lu};
 use crate::rod::{Order, Rod};
 
 /// The resistance to a turn, over that to a shift and the length squared, in the measure of a motion.
@@ -69,14 +69,13 @@ impl SecondVariation {
             Node { resistance: Mat6::ZERO, share: 0.5 * beside / rod.length() }
         }));
         let mut add = |node: usize, resistance: Mat6| {
-            let to_fixed = nodal.axes.frame(&state.poses[node]).adjoint_matrix();
+            let to_fixed = nodal.axes.turned(&state.poses[node]).adjoint_matrix();
             let local = to_fixed.transpose().mul(&resistance).mul(&to_fixed);
             let all = &mut self.nodes[node].resistance;
             *all = all.add(&symmetric(&local));
         };
         for (i, load) in nodal.loads.iter().enumerate().filter(|(_, load)| load.linear != Vec3::ZERO) {
-            let by_frame = dead_moment_slope(nodal.places[i], load.linear);
-            add(i, Mat6 { blocks: [by_frame, [Mat3::ZERO; 2]] }.scaled(-1.0));
+            add(i, dead_moment_slope(load.linear).scaled(-1.0));
         }
         for (node, slope) in &nodal.load_slopes {
             add(*node, Mat6::from_rows(slope).scaled(-1.0));
@@ -282,7 +281,7 @@ impl Nodal {
     /// Takes from a motion of the nodes, each in its own frame, what the supports do not allow.
     pub fn keep_to_holds(&self, state: &Record, motion: &mut [Vec6]) {
         for hold in &self.holds {
-            let frame = self.axes.frame(&state.poses[hold.node]);
+            let frame = self.axes.turned(&state.poses[hold.node]);
             let step = frame.adjoint_matrix().mul_vec(motion[hold.node]);
             let allowed = hold.parts().map_or(Vec6::ZERO, |parts| hold.free().mul_vec(parts.mul_vec(step)));
             motion[hold.node] = frame.inverse().adjoint_matrix().mul_vec(allowed);

@@ -9,7 +9,7 @@ use super::super::boundary::{displacements, displacements_slope, meet};
 use super::super::march::Record;
 use super::super::problem::{Problem, Support};
 use super::elimination::{Eliminate, Inertia, Square, add_coadjoint, parts, subtract_dead_moment_slope};
-use super::{Axes, Hold, Link, Nodal, along_screw, logs, out_of_balance};
+use super::{Axes, Hold, Link, Nodal, logs, out_of_balance};
 use crate::element::{Resistance, diagonal_resistance};
 use crate::math::{Kernel, Mat3, Pose, Real, Register, Vec3, Vec6, Wide, Wrench, larger, largest};
 
@@ -184,9 +184,9 @@ impl<R: Register> SideBySide<R> {
                 if end.fixed == [true; 6] {
                     continue;
                 }
-                let pose = poses[node].lane(lane);
-                let free = displacements(end, &pose).to_rows();
-                let curved = displacements_slope(end, &pose, imbalance.lane(lane)).to_rows();
+                let turned = Pose { position: Vec3::ZERO, ..poses[node].lane(lane) };
+                let free = displacements(end, &turned).to_rows();
+                let curved = displacements_slope(end, &turned, imbalance.lane(lane)).to_rows();
                 for r in 0..6 {
                     for c in 0..6 {
                         hold.free[r][c].put_number(lane, free[r][c]);
@@ -243,8 +243,7 @@ impl<R: Register> SideBySide<R> {
             let motion = motions[lane.min(self.rods - 1)];
             let (axes, end) = (&self.axes[lane], self.poses[last].lane(lane));
             let turn = end.rotation * motion.angular;
-            let shift = end.rotation * motion.linear * (1.0 / axes.length);
-            first.put(lane, Vec6::new(turn, shift - turn.cross(self.system.places[last].lane(lane))));
+            first.put(lane, Vec6::new(turn, end.rotation * motion.linear * (1.0 / axes.length)));
         }
         R::run(Answer { system: &mut self.system, end: first });
         self.take(problems, f64::INFINITY, false, moves);
@@ -289,37 +288,41 @@ impl<R: Wide> Kernel for LineariseAll<'_, R> {
         let mut worst = zero;
         system.links.resize(
             wrenches.len(),
-            Link { stiffness: [[zero; 6]; 6], carried: Wrench::zero(), pull: Wrench::zero() },
+            Link {
+                arm: Vec3::new(zero, zero, zero),
+                stiffness: [[zero; 6]; 6],
+                carried: Wrench::zero(),
+                pull: Wrench::zero(),
+            },
         );
         for (e, fixed) in elements.iter().enumerate() {
-            let far = poses[e + 1];
-            let x = logs(&poses[e].between(&far));
+            let x = logs(&poses[e].between(&poses[e + 1]));
+            let turned = poses[e + 1].rotation;
             let wrench = wrenches[e];
             let Resistance { stiffness, pull, slack } =
-                diagonal_resistance(fixed.compliance, fixed.rest, lent * fixed.part, x, wrench, &far);
+                diagonal_resistance(fixed.compliance, fixed.rest, lent * fixed.part, x, wrench, &turned);
             worst = larger(worst, largest(&parts(slack)));
             let link = &mut system.links[e];
+            link.arm = poses[e + 1].position - poses[e].position;
             put_block(&mut link.stiffness, 0, 0, &stiffness[0][0]);
             put_block(&mut link.stiffness, 0, 3, &stiffness[0][1]);
             put_block(&mut link.stiffness, 3, 0, &stiffness[1][0]);
             put_block(&mut link.stiffness, 3, 3, &stiffness[1][1]);
-            link.carried = far.carry_wrench(wrench);
+            link.carried = Wrench::new(turned * wrench.angular, turned * wrench.linear);
             link.pull = pull;
         }
-        system.places.clear();
         system.loads.clear();
         system.load_slopes.clear();
         for (i, pose) in poses.iter().enumerate() {
-            let (at, load) = (pose.position, dead[i]);
-            system.places.push(at);
-            let mut acts = Wrench::new(load.angular + at.cross(load.linear), load.linear);
+            let mut acts = dead[i];
             if *any_follower {
-                let carried = pose.carry_wrench(follower[i]);
+                let (rotation, load) = (&pose.rotation, follower[i]);
+                let carried = Wrench::new(*rotation * load.angular, *rotation * load.linear);
                 acts += carried;
                 let mut slope = [[zero; 6]; 6];
                 add_coadjoint(&mut slope, carried);
                 // The elimination adds that of every force that acts.
-                subtract_dead_moment_slope(&mut slope, at, carried.linear);
+                subtract_dead_moment_slope(&mut slope, carried.linear);
                 system.load_slopes.push((i, slope));
             }
             system.loads.push(acts);
@@ -355,10 +358,10 @@ impl<R: Real> Kernel for Measure<'_, R> {
             carried = larger(carried, largest(&parts(link.carried)));
         }
         let mut holds = system.holds.iter().peekable();
-        for (node, place) in system.places.iter().enumerate() {
+        for node in 0..system.loads.len() {
             let hold = holds.next_if(|hold| hold.node == node);
-            let about = out_of_balance(system.imbalance(node), *place, hold);
-            imbalance = larger(imbalance, largest(&parts(about)));
+            let out = out_of_balance(system.imbalance(node), hold);
+            imbalance = larger(imbalance, largest(&parts(out)));
         }
         larger(imbalance / carried, slack * R::splat(system.links.len() as f64))
     }
@@ -419,11 +422,12 @@ impl<R: Real> Kernel for TakeAll<'_, R> {
         }
         let stays = R::select(moves.at_most(0.5), zero, part).at_most(0.0);
         for e in 0..wrenches.len() {
-            let change = system.links[e].change(system.steps[e], system.steps[e + 1], part, &poses[e + 1]);
+            let turned = &poses[e + 1].rotation;
+            let change = system.links[e].change(system.steps[e], system.steps[e + 1], part, turned);
             wrenches[e] += unless(stays, change);
         }
         for i in 0..poses.len() {
-            let by = along_screw(unless(stays, system.steps[i]), part, system.places[i]);
+            let by = Pose::exp(unless(stays, system.steps[i]) * part);
             let pose = poses[i];
             poses[i] = Pose { rotation: by.rotation * pose.rotation, position: pose.position + by.position };
         }
