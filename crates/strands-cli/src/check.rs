@@ -8,7 +8,7 @@ use strands_scene::check::{Check, Level, Remark, RodCheck, Trial};
 
 use crate::args::Check as Options;
 use crate::units::{digits, engineering};
-use crate::{Failure, colour_err, colour_out, overrides, say, source};
+use crate::{Failure, colour_err, colour_out, overrides, say, source, tell};
 
 /// The command.
 ///
@@ -29,9 +29,9 @@ pub fn warn(remarks: &[Remark]) {
     for Remark { said, .. } in remarks.iter().filter(|remark| remark.level == Level::Warning) {
         let (place, message) = (format!("{}:{}: {}", said.file(), said.line(), said.key()), said.message());
         if colour_err() {
-            eprintln!("{style}warning{style:#}: {bold}{place}{bold:#}: {message}");
+            tell(&format!("{style}warning{style:#}: {bold}{place}{bold:#}: {message}"));
         } else {
-            eprintln!("warning: {place}: {message}");
+            tell(&format!("warning: {place}: {message}"));
         }
     }
 }

@@ -19,7 +19,7 @@ mod units;
 mod validate;
 mod view;
 
-use std::io::{IsTerminal, Write, stdout};
+use std::io::{IsTerminal, Write, stderr, stdout};
 use std::process::ExitCode;
 
 use args::{Arguments, Command};
@@ -70,7 +70,7 @@ fn main() -> ExitCode {
         Err(Failure::Unsolved) => ExitCode::from(2),
         Err(Failure::Interrupted) => ExitCode::from(interrupt::STATUS),
         Err(Failure::Bad(message)) => {
-            eprintln!("{}", message.trim_end());
+            tell(message.trim_end());
             ExitCode::from(1)
         }
     }
@@ -117,6 +117,11 @@ fn say(text: &str) -> Result<(), Failure> {
     }
 }
 
+/// Prints to standard error, whether somebody reads it or not.
+fn tell(text: &str) {
+    let _ = writeln!(stderr(), "{text}");
+}
+
 /// Whether standard output takes colours.
 fn colour_out() -> bool {
     stdout().is_terminal() && std::env::var_os("NO_COLOR").is_none()
@@ -124,5 +129,5 @@ fn colour_out() -> bool {
 
 /// Whether standard error takes colours.
 fn colour_err() -> bool {
-    std::io::stderr().is_terminal() && std::env::var_os("NO_COLOR").is_none()
+    stderr().is_terminal() && std::env::var_os("NO_COLOR").is_none()
 }

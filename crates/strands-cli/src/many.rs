@@ -17,7 +17,7 @@ use crate::args::Solve;
 use crate::solve::Format;
 use crate::source::Source;
 use crate::units::engineering;
-use crate::{Failure, overrides, say, summary};
+use crate::{Failure, overrides, say, summary, tell};
 
 /// Lists all equilibria of a rod.
 ///
@@ -131,7 +131,7 @@ pub fn path(
     at_value(1.0)?;
     let name = rod_named(options.rod.as_deref(), &first, Some(&way.key))?;
     if first.rod(&name).is_some_and(|rod| matches!(rod.mesh, MeshChoice::Tolerance(_))) {
-        eprintln!("note: a path keeps its mesh: 100 elements in place of those that `tolerance` asks for");
+        tell("note: a path keeps its mesh: 100 elements in place of those that `tolerance` asks for");
     }
     let problem = |at: f64| {
         let model = at_value(at).map_err(|failure| match failure {

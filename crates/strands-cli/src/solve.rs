@@ -8,7 +8,7 @@ use strands_scene::{MeshError, Model, write};
 
 use crate::args::Solve;
 use crate::ending::format_of;
-use crate::{Failure, check, colour_out, many, overrides, say, source, summary};
+use crate::{Failure, check, colour_out, many, overrides, say, source, summary, tell};
 
 /// A solved scene.
 #[derive(Debug)]
@@ -69,7 +69,7 @@ pub fn run(options: &Solve) -> Result<(), Failure> {
             Some(bytes) => {
                 std::fs::write(path, bytes).map_err(|error| Failure::file(path.display(), &error))?
             }
-            None => eprintln!("note: {} is not written: there is no solution to show", path.display()),
+            None => tell(&format!("note: {} is not written: there is no solution to show", path.display())),
         }
     }
     if options.json {

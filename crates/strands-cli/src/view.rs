@@ -7,7 +7,7 @@ use tiny_http::{Header, Method, Request, Response, Server};
 
 use crate::args::View;
 use crate::source::{self, Source};
-use crate::{Failure, page, say};
+use crate::{Failure, page, say, tell};
 
 /// The port where none is asked for. Where it is taken, the system gives a free one.
 const USUAL_PORT: u16 = 7878;
@@ -31,7 +31,7 @@ pub fn run(options: &View) -> Result<(), Failure> {
     let address = address.ok_or_else(|| Failure::bad("the server has no address"))?;
     say(&format!("{address}\nInterrupt with Ctrl-C."))?;
     if !options.no_open && has_screen() && open::that_detached(&address).is_err() {
-        eprintln!("note: no browser could be opened; go to {address}");
+        tell(&format!("note: no browser could be opened; go to {address}"));
     }
     for request in server.incoming_requests() {
         // A browser that hangs up while it is answered is its own affair.

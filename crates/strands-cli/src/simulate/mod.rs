@@ -16,7 +16,8 @@ use strands_scene::{MeshChoice, Model, ModelBody, ModelRod, OUTPUT_RATE, read_st
 
 use crate::args::Simulate;
 use crate::source::Source;
-use crate::{Failure, interrupt, overrides, progress, say, source};
+use crate::units::engineering;
+use crate::{Failure, interrupt, overrides, progress, say, source, tell};
 use output::Format;
 
 /// What a scene leaves out.
@@ -59,6 +60,9 @@ pub fn run(options: &Simulate) -> Result<(), Failure> {
     let bar = if options.json { ProgressBar::hidden() } else { progress::bar() };
     let Run { frames, steps, end, seconds } = stepped(&model, &plan, &mut simulation, &bar);
     bar.finish_and_clear();
+    if end == End::Finished {
+        tell_the_end(&plan, &simulation, frames[0].time);
+    }
     let simulated = simulation.state().time - frames[0].time;
     let real_time_factor = if steps == 0 { 0.0 } else { simulated / seconds };
     let ran = Ran { steps, real_time_factor, end };
@@ -135,10 +139,10 @@ fn saved(path: &Path) -> Result<Start, Failure> {
 fn started(model: &Model, plan: &Plan) -> Result<Simulation, Failure> {
     for rod in &model.rods {
         if matches!(rod.mesh, MeshChoice::Tolerance(_)) {
-            eprintln!(
+            tell(&format!(
                 "note: rod `{}` moves on 100 elements in place of those that `tolerance` asks for",
                 rod.name
-            );
+            ));
         }
     }
     model
@@ -146,9 +150,24 @@ fn started(model: &Model, plan: &Plan) -> Result<Simulation, Failure> {
         .map_err(|error| Failure::bad(with_names(model, &error)))
 }
 
+/// That it does not end when it is asked to, where steps that are all alike end before or after.
+fn tell_the_end(plan: &Plan, simulation: &Simulation, began: f64) {
+    let seconds = simulation.state().time - began;
+    if (seconds - plan.seconds).abs() > 1e-6 * plan.seconds {
+        let (step, asked) = (engineering(plan.settings.time_step, "s"), engineering(plan.seconds, "s"));
+        let seconds = engineering(seconds, "s");
+        tell(&format!("note: whole steps of {step} make {seconds}, not {asked}"));
+    }
+}
+
 /// An error with the rod's name in place of its number.
 fn with_names(model: &Model, error: &SimulationError) -> String {
-    let text = error.to_string();
+    let text = match (error, &model.dynamics.start) {
+        (SimulationError::Unfit { .. } | SimulationError::NotFinite, Some(file)) => {
+            format!("dynamics.start: {file}: {error}")
+        }
+        _ => error.to_string(),
+    };
     match error.rod() {
         Some(rod) => text.replacen(&format!("rod {rod}"), &format!("rod `{}`", model.rods[rod].name), 1),
         None => text,
@@ -162,13 +181,20 @@ fn stepped(model: &Model, plan: &Plan, simulation: &mut Simulation, bar: &Progre
     let (mut iterations, mut residual): (usize, f64) = (0, 0.0);
     let start = simulation.state().time;
     let end = start + plan.seconds;
+    // A run that goes on has its frames at the same times, to the bit, as one that was not ended.
+    let before = start / plan.every;
+    let before = if (before - before.round()).abs() < SAME_TIME { before.round() } else { before };
     while !simulation.has_come_to(end) && run.end == End::Finished {
-        let due = (start + run.frames.len() as f64 * plan.every).min(end);
+        let due = (before + run.frames.len() as f64) * plan.every;
+        let due = if due < end + SAME_TIME * plan.every { due } else { end };
         let began = Instant::now();
         let step = match simulation.step_towards(due) {
             Ok(step) => step,
             Err(failure) => {
                 run.end = End::Failed(format!("{failure}; {}", mend(model, simulation)));
+                if simulation.state().time > run.frames[run.frames.len() - 1].time {
+                    run.frames.push(frame(model, simulation, iterations, residual));
+                }
                 return run;
             }
         };
@@ -188,6 +214,9 @@ fn stepped(model: &Model, plan: &Plan, simulation: &mut Simulation, bar: &Progre
     }
     run
 }
+
+/// Times that are nearer than this part of the time from frame to frame are the same.
+const SAME_TIME: f64 = 1e-6;
 
 /// An element that is bent by more than this, rad, stands for too much of its rod.
 const SHARP: f64 = 1.0;

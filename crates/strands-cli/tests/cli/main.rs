@@ -135,7 +135,7 @@ fn every_bundled_scene_is_solved_or_simulated_where_its_rods_are_tied() {
         let read = strands_scene::Scene::parse(scene.text, scene.name, None).expect("a scene");
         let run = match read.model.each_alone() {
             Ok(()) => strands(&["solve", scene.name, "--json"]),
-            Err(_) => strands(&["simulate", scene.name, "--seconds", "0.01", "--json"]),
+            Err(_) => strands(&["simulate", scene.name, "--seconds", "0.02", "--json"]),
         };
         assert_eq!((run.code, run.err.as_str()), (0, ""), "{}", scene.name);
     }

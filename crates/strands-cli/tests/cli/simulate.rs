@@ -168,19 +168,41 @@ fn catches_interrupts(process: u32) -> bool {
 fn a_saved_state_goes_on_to_the_same_bits() {
     let folder = folder("simulate-state");
     let path = |name: &str| folder.join(name).to_str().unwrap().to_owned();
-    let whole = strands(&[FALL.as_slice(), &["--seconds", "0.06", "--save", &path("whole.json")]].concat());
-    assert_eq!(whole.code, 0, "{}", whole.err);
-    let half = strands(&[FALL.as_slice(), &["--seconds", "0.03", "--save", &path("half.json")]].concat());
-    assert_eq!(half.code, 0, "{}", half.err);
-    let start = format!("dynamics.start=\"{}\"", path("half.json"));
-    let rest = ["--set", &start, "--seconds", "0.03", "--save", &path("rest.json")];
-    let rest = strands(&[FALL.as_slice(), &rest].concat());
-    assert_eq!(rest.code, 0, "{}", rest.err);
     let read = |name: &str| std::fs::read_to_string(folder.join(name)).unwrap();
-    assert_eq!(read("rest.json"), read("whole.json"));
-    std::fs::write(folder.join("half.json"), "{}").unwrap();
-    let refused = strands(&[FALL.as_slice(), &["--set", &start]].concat());
-    assert!(refused.code == 1 && refused.err.contains("not the state of a simulation"), "{}", refused.err);
+    let start = format!("dynamics.start=\"{}\"", path("half.json"));
+    // Steps that are all alike, and such as their error chooses.
+    for steps in ["dynamics.time_step=1e-3", "dynamics.tolerance=1e-4"] {
+        let run = |seconds: &str, save: &str, start: &str| {
+            let rest = ["--set", steps, "--set", start, "--seconds", seconds, "--every", "0.01"];
+            let run = strands(&[FALL.as_slice(), &rest, &["--save", &path(save)]].concat());
+            assert_eq!((run.code, run.err.as_str()), (0, ""), "{steps}");
+        };
+        run("0.06", "whole.json", "dynamics.start=\"rest\"");
+        run("0.03", "half.json", "dynamics.start=\"rest\"");
+        run("0.03", "rest.json", &start);
+        assert_eq!(read("rest.json"), read("whole.json"), "{steps}");
+    }
+    let half = read("half.json");
+    for (state, said) in [
+        ("{}".to_owned(), "not the state of a simulation"),
+        (half.replace("\"next_step\":", "\"next_step\":-"), "a next step that is not longer than nothing"),
+        (half.replacen("\"wrenches\":[", "\"wrenches\":[[0,0,0,0,0,0],", 1), "give a state of the same rods"),
+    ] {
+        std::fs::write(folder.join("half.json"), state).unwrap();
+        let refused = strands(&[FALL.as_slice(), &["--set", &start]].concat());
+        assert_eq!(refused.code, 1);
+        assert!(refused.err.contains(said) && refused.err.contains("half.json"), "{}", refused.err);
+    }
+}
+
+#[test]
+fn a_run_that_does_not_end_when_it_was_asked_to_says_so() {
+    let run =
+        strands(&[FALL.as_slice(), &["--set", "dynamics.time_step=3e-3", "--seconds", "0.01"]].concat());
+    assert_eq!(
+        (run.code, run.err.trim_end()),
+        (0, "note: whole steps of 3.000 ms make 9.000 ms, not 10.00 ms")
+    );
 }
 
 #[test]

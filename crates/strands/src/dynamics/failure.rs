@@ -88,13 +88,18 @@ pub enum SimulationError {
         s: f64,
     },
     /// The state is of another assembly.
-    #[error("the state has {got} frames and the assembly {needed}")]
+    #[error(
+        "the state, of {got} frames, does not fit what moves, of {needed}: give a state of the same rods, elements and bodies"
+    )]
     Unfit {
         /// How many it has.
         got: usize,
         /// How many the assembly has.
         needed: usize,
     },
+    /// The state is none that a step can begin from.
+    #[error("the state has numbers that are not finite, or a next step that is not longer than nothing")]
+    NotFinite,
     /// The joints cannot be.
     #[error(transparent)]
     Assembly(#[from] AssemblyError),

@@ -242,6 +242,9 @@ impl Simulation {
         if !state.fits(needed, self.state.wrenches.len()) {
             return Err(SimulationError::Unfit { got, needed });
         }
+        if !state.is_finite() {
+            return Err(SimulationError::NotFinite);
+        }
         self.state = state;
         holds::put_as_planned(&mut self.assembly, self.state.time);
         self.weigh();

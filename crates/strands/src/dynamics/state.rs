@@ -83,6 +83,38 @@ impl State {
         }
     }
 
+    /// Whether a step can begin from it: all its numbers are finite, and the next step is longer than nothing.
+    pub(super) fn is_finite(&self) -> bool {
+        let frame = |pose: &Pose| {
+            pose.rotation
+                .cols
+                .iter()
+                .chain([&pose.position])
+                .all(|v| v.to_array().iter().all(|x| x.is_finite()))
+        };
+        let all = |sixes: &[Vec6]| sixes.iter().all(|six| six.to_array().iter().all(|x| x.is_finite()));
+        let past = match &self.past {
+            Past::None => true,
+            Past::Before { poses, momenta } => poses.iter().all(frame) && all(momenta),
+            Past::Rates { momentum, strain, means } => {
+                let fine = |means: &Means| all(&means.velocity) && all(&means.momentum) && all(&means.strain);
+                all(momentum) && all(strain) && means.as_ref().is_none_or(fine)
+            }
+        };
+        let numbers = [
+            self.time,
+            self.dissipated,
+            self.worked,
+            self.power.dissipated,
+            self.power.worked,
+            self.next_step,
+        ];
+        past && self.poses.iter().all(frame)
+            && [&self.velocities, &self.momenta, &self.wrenches].into_iter().all(|sixes| all(sixes))
+            && numbers.iter().all(|x| x.is_finite())
+            && self.next_step > 0.0
+    }
+
     /// Whether it is of so many frames and elements.
     pub(super) fn fits(&self, frames: usize, elements: usize) -> bool {
         let past = match &self.past {
