@@ -84,10 +84,22 @@ impl Swinging {
     /// # Errors
     /// Where there are no elements.
     pub fn problem(&self, elements: usize) -> Result<Problem, RodError> {
+        self.with(Kinematics::Cosserat, elements)
+    }
+
+    /// The same where it neither stretches nor shears.
+    ///
+    /// # Errors
+    /// Where there are no elements.
+    pub fn inextensible(&self, elements: usize) -> Result<Problem, RodError> {
+        self.with(Kinematics::Kirchhoff, elements)
+    }
+
+    fn with(&self, kinematics: Kinematics, elements: usize) -> Result<Problem, RodError> {
         let material = Material::new(self.youngs_modulus, self.shear_modulus, self.density)?;
         let description = RodDescription {
             length: self.length,
-            kinematics: Kinematics::Cosserat,
+            kinematics,
             profile: Profile::Stations(vec![Station { s: 0.0, section: self.section, material }]),
             rest: RestShape::default(),
             base: Pose::IDENTITY,

@@ -49,15 +49,15 @@ fn thin_rods_swing_for_ten_seconds_and_keep_their_amplitude() {
         let left = amplitude_left(rod, elements, Integrator::Midpoint);
         assert!((left - 1.0).abs() < 1e-6, "{} of {elements} elements: {left}", rod.name);
     }
-    // The others lose what is faster than their steps, and gain nothing.
-    for (rod, integrator, least) in [
-        (&SUTURE, Integrator::Sdirk4, 0.9999),
-        (&FINE_WIRE, Integrator::Sdirk4, 0.9999),
-        (&SUTURE, Integrator::Bdf2, 0.99),
-        (&FINE_WIRE, Integrator::Bdf2, 0.98),
+    // The others lose what is faster than their steps, and gain nothing but SDIRK4's own error, of either sign and of order 5 in the step.
+    for (rod, integrator, least, most) in [
+        (&SUTURE, Integrator::Sdirk4, 0.9999, 1.000_01),
+        (&FINE_WIRE, Integrator::Sdirk4, 0.9999, 1.000_01),
+        (&SUTURE, Integrator::Bdf2, 0.99, 1.0),
+        (&FINE_WIRE, Integrator::Bdf2, 0.98, 1.0),
     ] {
         let left = amplitude_left(rod, 50, integrator);
-        assert!((least..=1.0).contains(&left), "{}, {}: {left}", rod.name, integrator.name());
+        assert!((least..=most).contains(&left), "{}, {}: {left}", rod.name, integrator.name());
     }
 }
 
@@ -76,20 +76,20 @@ fn a_long_wire_comes_to_rest_where_it_should() {
     assert!(error < 1e-4, "{error:e}: {tip:?}");
 }
 
-/// Lets a hair fall for a second, in which its end comes round; gives the most energy that it ever gains, over its weight times its length, how many steps were
-/// cut, and how the last one went.
-fn falls(start: Support, settings: Settings) -> (f64, usize, Result<Step, StepFailure>) {
-    let problem = Problem { start, ..LONG_HAIR.problem(100).unwrap() };
+/// Lets a hair fall for a second, in which its end comes round; gives the most energy that it ever gains, over its weight times its length, and how the last
+/// step went.
+fn falls(hair: &Problem, start: Support, settings: Settings) -> (f64, Result<Step, StepFailure>) {
+    let problem = Problem { start, ..hair.clone() };
     let fall = 9.81 * problem.rod.mass() * LONG_HAIR.length;
     let mut simulation = Simulation::new(problem, settings, Start::Rest).unwrap();
     let began = simulation.energy().total();
-    let (mut gained, mut cut) = (0.0_f64, 0);
+    let mut gained = 0.0_f64;
     loop {
         let step = simulation.step();
         gained = gained.max((simulation.energy().total() - began) / fall);
         match step {
-            Ok(step) if step.time < 1.0 => cut += usize::from(step.pieces > 1),
-            last => return (gained, cut, last),
+            Ok(step) if step.time < 1.0 => {}
+            last => return (gained, last),
         }
     }
 }
@@ -97,11 +97,19 @@ fn falls(start: Support, settings: Settings) -> (f64, usize, Result<Step, StepFa
 #[test]
 fn a_long_hair_that_cracks_as_a_whip_stays_whole() {
     for start in [Support::clamped(Pose::IDENTITY), Support::pinned(Pose::IDENTITY)] {
-        let (gained, cut, last) = falls(start.clone(), Settings::default());
-        assert!(gained < 0.02 && cut > 10 && last.is_ok(), "{gained:e}, {cut} steps cut, {last:?}");
+        let hair = LONG_HAIR.problem(100).unwrap();
+        let (gained, last) = falls(&hair, start.clone(), Settings::default());
+        assert!(gained < 0.02 && last.is_ok(), "{gained:e}, {last:?}");
         // Where a step may not cost more it fails before it goes astray.
         let settings = Settings { max_iterations: 4, bounded: true, ..Settings::default() };
-        let (gained, _, last) = falls(start, settings);
+        let (gained, last) = falls(&hair, start.clone(), settings);
         assert!(gained < 0.1, "{gained:e}, {last:?}");
+        // One that does not stretch: against a turn about its own axis it has next to nothing.
+        let hair = LONG_HAIR.inextensible(400).unwrap();
+        for integrator in [Integrator::Bdf2, Integrator::Sdirk4] {
+            let settings = Settings { integrator, ..Settings::default() };
+            let (gained, last) = falls(&hair, start.clone(), settings);
+            assert!(gained < 0.02 && last.is_ok(), "{}: {gained:e}, {last:?}", integrator.name());
+        }
     }
 }
