@@ -115,7 +115,7 @@ pub(crate) fn example(key: &str) -> Option<&'static str> {
         "friction" => "give Coulomb's coefficient, as `friction = 0.3`; 0 for none",
         "time_step" | "duration" | "t" => "give it in s, as 1e-3",
         "mass_damping" => "give it in 1/s, as `mass_damping = 0.5`; 0 for none",
-        "spectral_radius" => "give a number from 0 to 1, as `spectral_radius = 0.8`",
+        "spectral_radius" => "give a number from 0 to 1, as `spectral_radius = 0.5`",
         "wind" => "write `[wind]` with `velocity = [3.0, 0.0, 0.0]` in m/s",
         "velocity" => "give it in m/s along the world's axes, as `velocity = [3.0, 0.0, 0.0]`",
         "angular_velocity" => {

@@ -195,10 +195,10 @@ fn steps_are_made_as_written() {
     let default = motion("");
     assert_eq!(default, strands::dynamics::Settings::default());
     let alpha = motion("integrator = \"generalized_alpha\"\nmass_damping = 0.3\ntime_step = 2e-3");
-    assert_eq!(alpha.integrator, Integrator::GeneralizedAlpha { spectral_radius: 0.8 });
+    assert_eq!(alpha.integrator, Integrator::GeneralizedAlpha { spectral_radius: 0.5 });
     assert_eq!((alpha.mass_damping, alpha.time_step, alpha.bounded), (0.3, 2e-3, false));
-    let radius = motion("integrator = \"generalized_alpha\"\nspectral_radius = 0.5").integrator;
-    assert_eq!(radius, Integrator::GeneralizedAlpha { spectral_radius: 0.5 });
+    let radius = motion("integrator = \"generalized_alpha\"\nspectral_radius = 0.7").integrator;
+    assert_eq!(radius, Integrator::GeneralizedAlpha { spectral_radius: 0.7 });
     let bounded = motion("newton_iterations = 2");
     assert_eq!((bounded.bounded, bounded.max_iterations), (true, 2));
     assert_eq!(motion("integrator = \"midpoint\"").integrator, Integrator::Midpoint);

@@ -91,7 +91,7 @@ pub struct DynamicsFile {
     /// The time integrator. Default "bdf2".
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub integrator: Option<IntegratorName>,
-    /// What is left after a step of a motion that is much faster, from 0 to 1; with "generalized_alpha" only. Default 0.8.
+    /// What is left after a step of a motion that is much faster, from 0 to 1; with "generalized_alpha" only. Default 0.5.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub spectral_radius: Option<f64>,
     /// The time step, s.

@@ -7,7 +7,7 @@ use strands::dynamics::{self, Integrator, Simulation, SimulationError, Start};
 use strands::math::{Vec3, Vec6};
 
 /// What generalised-α leaves after a step of a motion that is much faster, where the scene does not say it.
-const SPECTRAL_RADIUS: f64 = 0.8;
+const SPECTRAL_RADIUS: f64 = 0.5;
 
 /// Frames a second, where the scene does not say it.
 pub const OUTPUT_RATE: f64 = 60.0;
