@@ -43,7 +43,7 @@ def main():
         if arguments.case in (None, case.name):
             parts.append(compare(case, pythons, binary, arguments, versions))
 
-    text = "\n\n".join((f"Measured on: {report.machine()}.\n\n" + ", ".join(f"{name} {version}" for name, version in versions.items()) + ".", *parts))
+    text = "\n\n".join((f"Measured on: {report.machine()}. No run had more than {arguments.budget:g} s of CPU time.\n\n" + ", ".join(f"{name} {version}" for name, version in versions.items()) + ".", *parts))
     print(text)
     if arguments.write:
         (HERE / "RESULTS.md").write_text(f"# Strands beside its peers, measured\n\n{text}\n\n[README.md](README.md) says how to read and repeat this.\n")
