@@ -2,7 +2,7 @@
 //!
 //! A step from `(R₀, x₀)` to `(R₁, x₁)` has its middle at `R_m = R₀ Λ^½`, `x̄ = (x₀ + x₁)/2`, with `R₁ = R₀ Λ`. Turns are counted by their Cayley vector `Θ`,
 //! `|Θ| = 2 tan(α/2)`, whose direction is the same in both frames; velocities are `(Ω₀ + Ω₁)/2 = Θ/h` and `(v₀ + v₁)/2 = (x₁ − x₀)/h`, and momenta `Π₁ − Π₀ =
-//! h W` about a fixed place, with `W` acting at the middle. Then the kinetic energy grows by exactly the work of what acts, `Θ·m + Δx·f`, and for any
+//! h W` of a node about itself, with `W` acting at the middle. Then the kinetic energy grows by exactly the work of what acts, `Θ·m + Δx·f`, and for any
 //! wrench that an element carries its two ends' momenta balance (Simo & Tarnow 1992).
 //!
 //! An element works by `σ·y`, where `y` is the rate of its exponent at the middle for these increments, and `y = Δξ` but for a term of third order. So its

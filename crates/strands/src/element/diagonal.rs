@@ -587,7 +587,7 @@ pub(crate) fn diagonal_flexibility<R: Real>(
     }
 }
 
-/// How an element, or several side by side, resists: seen from fixed axes.
+/// How an element, or several side by side, resists: seen from fixed axes where its far node is.
 pub(crate) struct Resistance<R = f64> {
     /// `F`: a change of its far frame against its near one, by `ξ`, changes the wrench that it carries by `F ξ`.
     pub stiffness: [[Mat3<Vec3<R>>; 2]; 2],
