@@ -193,7 +193,10 @@ fn stepped(model: &Model, plan: &Plan, simulation: &mut Simulation, bar: &Progre
             Err(failure) => {
                 run.end = End::Failed(format!("{failure}; {}", mend(model, simulation)));
                 if simulation.state().time > run.frames[run.frames.len() - 1].time {
-                    run.frames.push(frame(model, simulation, iterations, residual));
+                    let mut last = frame(model, simulation, iterations, residual);
+                    // What was solved last is the step that failed.
+                    last.rods.iter_mut().for_each(|rod| rod.reactions.clear());
+                    run.frames.push(last);
                 }
                 return run;
             }
@@ -207,7 +210,7 @@ fn stepped(model: &Model, plan: &Plan, simulation: &mut Simulation, bar: &Progre
             run.end = End::Interrupted;
         }
         // The frame that is nearest to its time, and the last.
-        if simulation.has_come_to(due) || run.end == End::Interrupted {
+        if simulation.has_come_to(due) || simulation.has_come_to(end) || run.end == End::Interrupted {
             run.frames.push(frame(model, simulation, iterations, residual));
             (iterations, residual) = (0, 0.0);
         }

@@ -228,3 +228,13 @@ fn tied_rods_and_bodies_move_as_one() {
     let run = strands(&["simulate", "../../../../scenes/hanging_net.toml", "--seconds", "0.02", "--json"]);
     assert_eq!((run.code, run.err.as_str()), (0, ""));
 }
+
+#[test]
+fn the_last_frame_is_where_the_run_ends() {
+    // Three times 0.035 is more than 0.105.
+    let asked = ["--set", "dynamics.time_step=0.01", "--seconds", "0.105", "--every", "0.035", "--json"];
+    let answer: Value = serde_json::from_str(&strands(&[FALL.as_slice(), &asked].concat()).out).unwrap();
+    let frames = answer["frames"].as_array().unwrap();
+    let last = frames[frames.len() - 1]["t"].as_f64().unwrap();
+    assert!((last - 0.01 * answer["steps"].as_f64().unwrap()).abs() < 1e-9, "{last}");
+}
