@@ -49,7 +49,7 @@ fn thin_rods_swing_for_ten_seconds_and_keep_their_amplitude() {
         let left = amplitude_left(rod, elements, Integrator::Midpoint);
         assert!((left - 1.0).abs() < 1e-6, "{} of {elements} elements: {left}", rod.name);
     }
-    // The others lose what is faster than their steps, and gain nothing but SDIRK4's own error, of either sign and of order 5 in the step.
+    // The others lose what is faster than their steps, and gain nothing but SDIRK4's own error, of either sign.
     for (rod, integrator, least, most) in [
         (&SUTURE, Integrator::Sdirk4, 0.9999, 1.000_01),
         (&FINE_WIRE, Integrator::Sdirk4, 0.9999, 1.000_01),

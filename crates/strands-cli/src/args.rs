@@ -124,7 +124,7 @@ pub struct Simulate {
     /// Write the frames, in the format of the ending: .json .csv .npz .pvd .usda .glb; may be repeated
     #[arg(short, long, value_name = "FILE")]
     pub output: Vec<PathBuf>,
-    /// Write the state at the end, from which `start = "FILE"` goes on to the same bits
+    /// Write the state at the end, from which `start = "FILE"` goes on to the same bits (with `tolerance`, where a frame was due)
     #[arg(long, value_name = "FILE")]
     pub save: Option<PathBuf>,
     /// Print one JSON object and nothing else

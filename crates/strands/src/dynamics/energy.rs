@@ -51,8 +51,7 @@ impl Simulation {
     pub fn energy(&self) -> Budget {
         let state = &self.state;
         let kinetic = |(i, momentum): (usize, &Wrench)| {
-            let turned = |v: Vec3| state.poses[i].rotation.transpose_mul(v);
-            let body = Wrench::new(turned(momentum.angular), turned(momentum.linear));
+            let body = momentum.turned_back_by(&state.poses[i].rotation);
             let NodeInertia { mass, rotational } = self.work.inertia[i];
             let turning = squares_over(&body.angular.to_array(), &rotational.to_array());
             0.5 * (turning + body.linear.dot(body.linear) / mass)
@@ -83,10 +82,7 @@ impl Simulation {
     pub fn momentum(&self) -> (Vec3, Vec3) {
         let moving = self.state.momenta.iter().zip(&self.state.poses);
         let sum = moving.fold(Wrench::ZERO, |sum, (momentum, pose)| {
-            sum + Wrench::new(
-                momentum.angular + (pose.position - self.origin).cross(momentum.linear),
-                momentum.linear,
-            )
+            sum + momentum.wrench_from(pose.position - self.origin)
         });
         (sum.linear, sum.angular)
     }
@@ -101,9 +97,8 @@ impl Simulation {
 
     fn reaction_at(&self, frame: usize, place: Vec3) -> Wrench {
         for group in &self.work.groups {
-            if let Some(left) = group.left_over(frame) {
-                let held = left * -1.0;
-                return Wrench::new(held.angular - place.cross(held.linear), held.linear);
+            if let Some(left) = group.left_over(frame, place) {
+                return left * -1.0;
             }
         }
         Wrench::ZERO

@@ -51,7 +51,6 @@ impl Kernel for TakeInertia<'_> {
             let turning = Turning::new(q.angular, rate.angular, per_rate);
             let spin = rotation * rotational.scale(turning.velocity);
             let linear = rate.linear * mass;
-            // Of the momentum about the node.
             let change = Vec6::new(spin - known.angular, linear - known.linear);
             let exerts = change * -per_rate - Vec6::new(spin, linear) * Lanes::splat(lost);
             let turned = rotation * Mat3::diagonal(rotational) * turning.by_turn * rotation.transpose();

@@ -16,10 +16,10 @@
 pub enum Integrator {
     /// Backward Euler, of order 1: it takes energy out of all that is faster than a few steps.
     ImplicitEuler,
-    /// Backward differences of order 2. The first step is one of [`Integrator::Sdirk4`].
+    /// Backward differences of order 2. The first step, and one after a step in pieces, is one of [`Integrator::Sdirk4`].
     Bdf2,
     /// The generalised-α method of order 2 for equations of the first order (Jansen, Whiting & Hulbert 2000), in canonical coordinates about each
-    /// step's beginning. The first step is one of [`Integrator::Sdirk4`].
+    /// step's beginning. The first step, and one after a step in pieces, is one of [`Integrator::Sdirk4`].
     GeneralizedAlpha {
         /// What is left after a step of a motion that is much faster, from 0 to 1: the spectral radius `ρ∞`. Where rods that do not stretch turn fast, errors
         /// of their wrenches grow with one near 1 (with 0.8 at 0.03 rad a step, with 0.5 not at 0.05), and steps fail.
@@ -29,7 +29,7 @@ pub enum Integrator {
     /// without bodies and hinges, and turns of less than half a circle a step.
     Midpoint,
     /// A singly diagonally implicit Runge–Kutta method of order 4, L-stable, with an explicit stage and five implicit ones: ESDIRK4(3)6L\[2\]SA of Kennedy &
-    /// Carpenter (2003). Of order 3 for viscous rods, and of order 2 for rods that do not stretch where they turn.
+    /// Carpenter (2003). Of an order between 3 and 4 for viscous rods, and of order 2 for rods that do not stretch where they turn.
     Sdirk4,
 }
 

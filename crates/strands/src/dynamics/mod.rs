@@ -235,14 +235,14 @@ impl Simulation {
     /// Goes to a state of this simulation, or of another one of the same assembly.
     ///
     /// # Errors
-    /// Where it is of another assembly.
+    /// Where it is of another assembly, or no step can begin from it.
     pub fn restore(&mut self, state: State) -> Result<(), SimulationError> {
         let needed = self.assembly.frames();
         let got = state.poses.len();
         if !state.fits(needed, self.state.wrenches.len()) {
             return Err(SimulationError::Unfit { got, needed });
         }
-        if !state.is_finite() {
+        if !state.can_begin() {
             return Err(SimulationError::NotFinite);
         }
         self.state = state;

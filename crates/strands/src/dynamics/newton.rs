@@ -3,7 +3,7 @@
 use super::stage::{Resistance, Stage};
 use super::{Simulation, StepFailure, Taken};
 use crate::assembly::{Assembly, Member, Ties};
-use crate::math::{Pose, SimdLevel, Wrench, larger};
+use crate::math::{Pose, SimdLevel, Vec3, Wrench, larger};
 use crate::rod::{Kinematics, NodeInertia};
 use crate::statics::{Motion, Network, Nodal, Problem, Record, Support, meet, rigid_compliance};
 use core::ops::Range;
@@ -233,47 +233,40 @@ impl Group {
         self.take_frames(poses);
     }
 
-    /// What is left over of a frame of the group and what hangs from it: force, and moment about the world's origin.
-    pub fn left_over(&self, frame: usize) -> Option<Wrench> {
+    /// What is left over of a frame of the group and what hangs from it: force, and moment about a place.
+    pub fn left_over(&self, frame: usize, place: Vec3) -> Option<Wrench> {
         if let Some(network) = &self.network {
             let at = network.frames().iter().position(|of| *of == frame)?;
-            return Some(network.left_over(at));
+            return Some(network.left_over(at, place));
         }
         let system = &self.rods[0];
         let nodes = system.nodes();
-        nodes.contains(&frame).then(|| system.left_over(frame - nodes.start))
+        nodes.contains(&frame).then(|| {
+            let node = frame - nodes.start;
+            system.nodal.left_over(node).wrench_from(system.record.poses[node].position - place)
+        })
     }
 
     /// What is left over of frames that nothing holds goes into their momenta: then none is lost or made.
     fn keep_left_over(&self, assembly: &Assembly, stage: &mut Stage, poses: &[Pose]) {
         let times = if stage.middle { 2.0 * stage.of_rate } else { stage.of_rate };
-        let mut keep = |frame: usize, left: Wrench| {
-            let about = Wrench::new(left.angular - poses[frame].position.cross(left.linear), left.linear);
-            stage.momenta[frame] += about * times;
-        };
+        let mut keep = |frame: usize, left: Wrench| stage.momenta[frame] += left * times;
         let held = |member| assembly.support(member).is_some_and(Support::holds_anything);
         match &self.network {
             Some(network) => {
                 for (at, _) in network.roots().filter(|(_, member)| !held(*member)) {
-                    keep(network.frames()[at], network.left_over(at));
+                    let frame = network.frames()[at];
+                    keep(frame, network.left_over(at, poses[frame].position));
                 }
             }
             None => {
                 let system = &self.rods[0];
                 let nodes = 0..system.record.poses.len();
                 for node in nodes.filter(|node| !held(Member::Node { rod: system.rod, node: *node })) {
-                    keep(system.first + node, system.left_over(node));
+                    keep(system.first + node, system.nodal.left_over(node));
                 }
             }
         }
-    }
-}
-
-impl RodSystem {
-    fn left_over(&self, node: usize) -> Wrench {
-        let left = self.nodal.left_over(node);
-        let place = self.record.poses[node].position;
-        Wrench::new(left.angular + place.cross(left.linear), left.linear)
     }
 }
 

@@ -84,34 +84,30 @@ impl State {
     }
 
     /// Whether a step can begin from it: all its numbers are finite, and the next step is longer than nothing.
-    pub(super) fn is_finite(&self) -> bool {
-        let frame = |pose: &Pose| {
-            pose.rotation
-                .cols
-                .iter()
-                .chain([&pose.position])
-                .all(|v| v.to_array().iter().all(|x| x.is_finite()))
-        };
-        let all = |sixes: &[Vec6]| sixes.iter().all(|six| six.to_array().iter().all(|x| x.is_finite()));
-        let past = match &self.past {
-            Past::None => true,
-            Past::Before { poses, momenta } => poses.iter().all(frame) && all(momenta),
-            Past::Rates { momentum, strain, means } => {
-                let fine = |means: &Means| all(&means.velocity) && all(&means.momentum) && all(&means.strain);
-                all(momentum) && all(strain) && means.as_ref().is_none_or(fine)
+    pub(super) fn can_begin(&self) -> bool {
+        let (mut poses, mut sixes) =
+            (vec![&self.poses], vec![&self.velocities, &self.momenta, &self.wrenches]);
+        match &self.past {
+            Past::None => {}
+            Past::Before { poses: before, momenta } => {
+                poses.push(before);
+                sixes.push(momenta);
             }
-        };
-        let numbers = [
-            self.time,
-            self.dissipated,
-            self.worked,
-            self.power.dissipated,
-            self.power.worked,
-            self.next_step,
-        ];
-        past && self.poses.iter().all(frame)
-            && [&self.velocities, &self.momenta, &self.wrenches].into_iter().all(|sixes| all(sixes))
-            && numbers.iter().all(|x| x.is_finite())
+            Past::Rates { momentum, strain, means } => {
+                sixes.extend([momentum, strain]);
+                sixes
+                    .extend(means.iter().flat_map(|means| [&means.velocity, &means.momentum, &means.strain]));
+            }
+        }
+        let Power { dissipated, worked } = self.power;
+        let numbers =
+            [self.time, self.dissipated, self.worked, dissipated, worked, self.next_step].into_iter();
+        let columns = poses
+            .into_iter()
+            .flatten()
+            .flat_map(|pose| pose.rotation.cols.into_iter().chain([pose.position]));
+        let sixes = sixes.into_iter().flatten().flat_map(|six| six.to_array());
+        numbers.chain(columns.flat_map(|column| column.to_array())).chain(sixes).all(f64::is_finite)
             && self.next_step > 0.0
     }
 

@@ -2,7 +2,7 @@
 
 use super::holds::Held;
 use super::piece::{Piece, WHOLE};
-use super::{Integrator, Past, Simulation, State, Step, StepFailure, Taken};
+use super::{Integrator, Simulation, State, Step, StepFailure, Taken};
 use crate::math::{Pose, larger};
 
 /// Into so many pieces is a step cut that was not solved, one after the other until it is.
@@ -110,11 +110,8 @@ impl Simulation {
     fn damped(&mut self, held: &Held, before: State) -> Result<Step, StepFailure> {
         let taken = self.piece(Integrator::ImplicitEuler, held, WHOLE)?;
         match self.settings.integrator {
-            Integrator::Bdf2 => {
-                self.state.past = Past::Before { poses: before.poses, momenta: before.momenta };
-            }
             Integrator::GeneralizedAlpha { .. } | Integrator::Sdirk4 => self.remember_rates(),
-            Integrator::ImplicitEuler | Integrator::Midpoint => {}
+            other => self.look_back_on(other, before.poses, before.momenta),
         }
         Ok(self.report(taken, self.work.step, 2))
     }

@@ -598,8 +598,8 @@ pub(crate) struct Resistance<R = f64> {
 }
 
 /// The resistance of an element of order 2 with a diagonal law, from `h S`, `h ε̂`, the exponent between its frames, the wrench through
-/// its far node, and how that node is turned in the axes, about whose place all is. `lent` is added to the compliance of its shifts, in the way to the solution and not
-/// in what must hold there.
+/// its far node, and how that node is turned in the axes, which are where it is. `lent` is added to the compliance of its shifts, on the way to the
+/// solution and not in what must hold there.
 ///
 /// With `x = h ε̂ + h S σ̄`, `σ̄ = T(x)ᵀ w`, the change of the wrench follows from that of the exponent, `T δx = ξ`:
 /// `Tᵀ δw = ((h S)⁻¹ − K) δx − (h S)⁻¹ (h ε̂ + h S σ̄ − x)`, with `K = ∂σ̄/∂x`.

@@ -161,6 +161,12 @@ impl<V: Vector> Pose<V> {
         Vec6::new(angular, self.rotation * x.linear + self.position.cross(angular))
     }
 
+    /// The frame as seen from where it is.
+    #[inline(always)]
+    pub fn from_itself(&self) -> Self {
+        Self { rotation: self.rotation, position: V::zero() }
+    }
+
     /// `Ad⁻ᵀ w`: a wrench at the far end of this pose, moved to and expressed in the frame at its near end.
     #[inline(always)]
     pub fn carry_wrench(&self, w: Vec6<V>) -> Vec6<V> {

@@ -1,6 +1,6 @@
 //! Pairs of an angular and a linear part: strains `(u, v)`, stresses `(m, n)`, wrenches, and variations of a frame.
 
-use super::{Vec3, Vector};
+use super::{Mat3, Vec3, Vector};
 use core::ops::{Add, AddAssign, Mul, Neg, Sub, SubAssign};
 
 /// An angular and a linear vector, angular part first.
@@ -77,6 +77,24 @@ impl<V: Vector> Vec6<V> {
     #[inline(always)]
     pub fn scale(self, o: Self) -> Self {
         Self::new(self.angular.scale(o.angular), self.linear.scale(o.linear))
+    }
+
+    /// Both parts turned, out of the axes of a frame.
+    #[inline(always)]
+    pub fn turned_by(self, rotation: &Mat3<V>) -> Self {
+        Self::new(*rotation * self.angular, *rotation * self.linear)
+    }
+
+    /// Both parts turned back, into the axes of a frame.
+    #[inline(always)]
+    pub fn turned_back_by(self, rotation: &Mat3<V>) -> Self {
+        Self::new(rotation.transpose_mul(self.angular), rotation.transpose_mul(self.linear))
+    }
+
+    /// A wrench about a place `arm` further on, about here.
+    #[inline(always)]
+    pub fn wrench_from(self, arm: V) -> Self {
+        Self::new(self.angular + arm.cross(self.linear), self.linear)
     }
 
     /// `ad_self other`, the Lie bracket of se(3).

@@ -7,7 +7,7 @@
 //! Turns about the fixed frame's axes are the components of the rotation vector `φ = log(R*ᵀ R)`; the moment that works on `φᵢ`
 //! is `J(φ)⁻ᵀ eᵢ`, with `J` the tangent on SO(3). With all turns free or all fixed both reduce to the material axes.
 
-use super::march::{Section, turned};
+use super::march::Section;
 use super::problem::{Problem, Support};
 use super::solution::Guess;
 use super::variation::{Columns, Variation, turned_by};
@@ -128,7 +128,7 @@ impl EndState {
 
     /// What acts on the node, in its frame: loads, reaction and grip together.
     pub fn wrench(&self, node: &Node) -> Wrench {
-        let mut wrench = turned(&self.pose, self.world_wrench(node)) + node.body;
+        let mut wrench = self.world_wrench(node).turned_back_by(&self.pose.rotation) + node.body;
         wrench.angular += self.reaction_moment(node.support);
         wrench
     }
@@ -166,7 +166,7 @@ impl EndState {
         let turns = end.turns();
         let phi = if turns == Turns::Mixed { end.turn_of(&self.pose) } else { Vec3::ZERO };
         let (j, j_inverse) = (so3_tangent(phi), so3_tangent_inverse(phi));
-        let body_axes = turned(&self.pose, self.world_wrench(node));
+        let body_axes = self.world_wrench(node).turned_back_by(&self.pose.rotation);
         let grip = end.grip.as_ref().map(|grip| grip.stiffness(&self.pose));
         core::array::from_fn(|k| {
             let axis = end.axis(k);
@@ -311,7 +311,7 @@ pub(crate) fn renormalised(rotation: Mat3) -> Mat3 {
 /// The section at the start with the first node's loads: its wrench is the opposite of the start's reaction, in the frame.
 pub(crate) fn loaded_start(problem: &Problem, start: &Section) -> Section {
     let world = problem.loads.in_world(0, start.pose.position);
-    let loads = problem.loads.body[0] + turned(&start.pose, world);
+    let loads = problem.loads.body[0] + world.turned_back_by(&start.pose.rotation);
     Section { pose: start.pose, wrench: start.wrench + loads }
 }
 
@@ -339,7 +339,7 @@ pub(crate) fn residual(problem: &Problem, start: &Section) -> [f64; 6] {
 
 /// The part of a wrench about a held node, world axes, that its support can exert: it does no work on what is free.
 pub(crate) fn borne(support: &Support, pose: &Pose, wrench: Wrench) -> Wrench {
-    let free = displacements(support, &Pose { rotation: pose.rotation, position: Vec3::ZERO });
+    let free = displacements(support, &pose.from_itself());
     let free_turns = (0..3).filter(|k| !support.fixed[*k]).map(|k| free.blocks[0][0].cols[k]);
     let mut turns = [Vec3::ZERO; 3];
     let count = free_turns.zip(&mut turns).map(|(axis, turn)| *turn = axis).count();
@@ -363,7 +363,7 @@ pub(crate) fn residual_slope(problem: &Problem, start: &Section, columns: &Colum
     let phi = end.turn_of(&start.pose);
     let j_inverse = so3_tangent_inverse(phi);
     let rotation = start.pose.rotation;
-    let world_load = turned(&start.pose, problem.loads.world[0]);
+    let world_load = problem.loads.world[0].turned_back_by(&start.pose.rotation);
     let mut slope = [[0.0; 6]; 6];
     for (k, column) in columns.iter().enumerate() {
         let turn = column.frame.angular;

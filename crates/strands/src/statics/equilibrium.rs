@@ -6,7 +6,7 @@
 //! is as long as its supports are far apart; the compliance lent to it fades with its slack.
 
 use super::boundary::{EndState, borne, meet, renormalised};
-use super::march::{Record, Section, march, turned};
+use super::march::{Record, Section, march};
 use super::nodal::{Distance, take_strains};
 use super::path::MOST_STEPS;
 use super::problem::{Problem, Stretch, Support};
@@ -418,7 +418,8 @@ pub(crate) fn recall(problem: &Problem, solution: &Solution, record: &mut Record
         let node = e + 1;
         let mut carried = record.carried_with_loads(node, &problem.loads);
         if let Some((_, reaction)) = held.next_if(|((at, _), _)| *at == node) {
-            carried += turned(&record.poses[node], Wrench::new(reaction.moment, reaction.force));
+            carried +=
+                Wrench::new(reaction.moment, reaction.force).turned_back_by(&record.poses[node].rotation);
         }
         record.wrenches[e] = carried;
     }
@@ -565,12 +566,12 @@ pub(crate) fn balance(problem: &Problem, record: &mut Record) {
         let mut balanced = record.carried_with_loads(node, &problem.loads);
         if let Some(support) = problem.support(node) {
             if let Some(grip) = &support.grip {
-                balanced += turned(pose, grip.wrench(pose));
+                balanced += grip.wrench(pose).turned_back_by(&pose.rotation);
             }
             // What is still out of balance is the support's, as far as it can bear it.
             let rest = record.wrenches[e] - balanced;
             let rest = Wrench::new(pose.rotation * rest.angular, pose.rotation * rest.linear);
-            balanced += turned(pose, borne(support, pose, rest));
+            balanced += borne(support, pose, rest).turned_back_by(&pose.rotation);
         }
         record.wrenches[e] = balanced;
     }

@@ -56,7 +56,7 @@ impl Record {
     pub fn carried_with_loads(&self, node: usize, loads: &NodalLoads) -> Wrench {
         let pose = &self.poses[node];
         let world = loads.in_world(node, pose.position);
-        self.carried_beyond(node) + loads.body[node] + turned(pose, world)
+        self.carried_beyond(node) + loads.body[node] + world.turned_back_by(&pose.rotation)
     }
 
     /// The largest force that an element carries, N.
@@ -234,7 +234,7 @@ impl Way<'_> {
             pose = pose.before(&solved.exponent, solved.t, &solved.coefficients);
             watch.node(e, &pose);
             if any_world && e > first {
-                wrench += turned(&pose, self.loads.world[e].splat());
+                wrench += self.loads.world[e].splat().turned_back_by(&pose.rotation);
             }
             if any_body && e > first {
                 wrench += self.loads.body[e].splat();
@@ -295,14 +295,8 @@ fn general(
         pose = pose.compose(&relative.inverse());
         record.poses[e] = pose;
         if e > first {
-            wrench += loads.body[e] + turned(&pose, loads.world[e]);
+            wrench += loads.body[e] + loads.world[e].turned_back_by(&pose.rotation);
         }
     }
     Section { pose, wrench }
-}
-
-/// A wrench in world axes, in those of a frame.
-#[inline(always)]
-pub(crate) fn turned<V: Vector>(pose: &Pose<V>, world: Wrench<V>) -> Wrench<V> {
-    Wrench::new(pose.rotation.transpose_mul(world.angular), pose.rotation.transpose_mul(world.linear))
 }

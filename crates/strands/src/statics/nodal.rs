@@ -77,7 +77,7 @@ pub(crate) struct Nodal<R = f64> {
     loads: Vec<Wrench<Vec3<R>>>,
     load_slopes: Vec<(usize, Square<R>)>,
     holds: Vec<Hold<R>>,
-    /// Where the nodes are, from the axes' origin.
+    /// Where the nodes are, from the axes' origin; of rods side by side, nothing.
     places: Vec<Vec3<R>>,
     /// How the variation of a node, seen from where the one after it is, follows from that one's; in its seventh column what it has by itself.
     follows: Vec<Block<R>>,
@@ -166,7 +166,7 @@ impl Nodal {
         self.load_slopes.sort_unstable_by_key(|(node, _)| *node);
         self.holds.clear();
         for (node, end) in problem.supports() {
-            let turned = axes.turned(&state.poses[node]);
+            let turned = state.poses[node].from_itself();
             let curved = displacements_slope(end, &turned, self.imbalance(node)).to_rows();
             let free = displacements(end, &turned).to_rows();
             self.holds.push(Hold { node, free, fixed: end.fixed.map(f64::from), curved });
@@ -190,7 +190,7 @@ impl Nodal {
             worst = larger(worst, largest(&axes.shift(slack).to_array()));
             let stiffness = axes.stiffness(&Mat6 { blocks: stiffness }).to_rows();
             let arm = (far.position - near.position) * (1.0 / axes.length);
-            let carried = axes.wrench(Wrench::new(*turned * w.angular, *turned * w.linear));
+            let carried = axes.wrench(w.turned_by(turned));
             self.links.push(Link { arm, stiffness, carried, pull: axes.wrench(pull) });
         }
         Some(worst)
@@ -214,7 +214,7 @@ impl Nodal {
                 slope = slope.add(&force_slope(Mat3::ZERO, by_shift));
             }
             if body != Wrench::ZERO {
-                let carried = axes.turned(pose).carry_wrench(body);
+                let carried = body.turned_by(&pose.rotation);
                 load += carried;
                 slope = slope.add(&element::coadjoint_by_strain(carried));
                 // The elimination adds that of every force that acts.
@@ -250,7 +250,7 @@ impl Nodal {
         scratch.linearise_in_its_axes(problem, level, lent, None, moved)?;
         // Seen from where the node is here.
         let slope = |node: usize, there: Wrench, here: Wrench| {
-            (about(scratch.places[node] - self.places[node], there) - here) * (1.0 / step)
+            (there.wrench_from(scratch.places[node] - self.places[node]) - here) * (1.0 / step)
         };
         let others = (0..=self.links.len()).map(|i| slope(i, scratch.acting(i), self.acting(i))).collect();
         let pulls = scratch.links.iter().zip(&self.links).enumerate();
@@ -290,13 +290,8 @@ impl Nodal {
     /// Makes the step one of the given size along a motion of the nodes, each in its own frame, and what takes up the slack.
     pub fn step_along(&mut self, state: &Record, motion: &[Vec6], size: f64) {
         self.steps.clear();
-        self.steps.extend(
-            state
-                .poses
-                .iter()
-                .zip(motion)
-                .map(|(pose, motion)| self.axes.turned(pose).adjoint_matrix().mul_vec(*motion)),
-        );
+        self.steps
+            .extend(state.poses.iter().zip(motion).map(|(pose, motion)| motion.turned_by(&pose.rotation)));
         let part = size / self.step_size();
         self.steps.iter_mut().for_each(|step| *step = *step * part);
     }
@@ -359,12 +354,6 @@ impl Kernel for Take<'_> {
     }
 }
 
-/// A wrench about a place `arm` further on, about here.
-#[inline(always)]
-fn about<R: Real>(arm: Vec3<R>, wrench: Wrench<Vec3<R>>) -> Wrench<Vec3<R>> {
-    Wrench::new(wrench.angular + arm.cross(wrench.linear), wrench.linear)
-}
-
 impl<R: Real> Link<R> {
     /// How the wrench that it carries changes when its nodes take a part of their steps, in the frame of its far node, which is turned so.
     #[inline(always)]
@@ -384,8 +373,7 @@ impl<R: Real> Link<R> {
                 + (row[2] * apart[2] + row[3] * apart[3])
                 + (row[4] * apart[4] + row[5] * apart[5]);
         }
-        let change = (pair(force) + self.pull) * part;
-        Wrench::new(turned.transpose_mul(change.angular), turned.transpose_mul(change.linear))
+        ((pair(force) + self.pull) * part).turned_back_by(turned)
     }
 }
 
@@ -467,7 +455,7 @@ fn between_links<R: Real>(
     exerted: impl Fn(&Link<R>) -> Wrench<Vec3<R>>,
 ) -> Wrench<Vec3<R>> {
     if let Some(link) = links.get(node) {
-        wrench += about(link.arm, exerted(link));
+        wrench += exerted(link).wrench_from(link.arm);
     }
     if node > 0 {
         wrench -= exerted(&links[node - 1]);

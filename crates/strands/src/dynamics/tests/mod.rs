@@ -298,6 +298,11 @@ fn what_cannot_move_is_refused_and_what_fails_leaves_the_state() {
     let failure = simulation.step().unwrap_err();
     assert!(matches!(failure, super::StepFailure::NotConverged { .. }), "{failure}");
     assert_eq!(simulation.state(), &before);
+    let mut lost = before.clone();
+    lost.momenta[3].linear.x = f64::NAN;
+    let refusal = simulation.restore(lost).unwrap_err();
+    assert!(matches!(refusal, super::SimulationError::NotFinite), "{refusal}");
+    assert_eq!(simulation.state(), &before);
 }
 
 #[test]

@@ -4,7 +4,7 @@ use super::super::march::Record;
 use super::super::problem::Problem;
 use crate::math::{Mat6, Pose, Vec3, Vec6, Wrench};
 
-/// Fixed axes about the rod's start, in which lengths, forces and moments are numbers of order one.
+/// Fixed axes in which lengths, forces and moments are numbers of order one, and from where places are told, the rod's start.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Axes {
     pub(super) origin: Vec3,
@@ -28,11 +28,6 @@ impl Axes {
 
     pub(super) fn at(&self, position: Vec3) -> Vec3 {
         (position - self.origin) * (1.0 / self.length)
-    }
-
-    /// A frame as seen from where it is.
-    pub(super) fn turned(&self, pose: &Pose) -> Pose {
-        Pose { rotation: pose.rotation, position: Vec3::ZERO }
     }
 
     pub(super) fn frame(&self, pose: &Pose) -> Pose {
@@ -62,7 +57,7 @@ impl Axes {
         Vec6::new(variation.angular, variation.linear * (1.0 / self.length))
     }
 
-    /// A stiffness, seen from axes of the same directions and origin.
+    /// A stiffness, seen from axes of the same directions about the same place.
     pub(super) fn stiffness(&self, stiffness: &Mat6) -> Mat6 {
         let scales =
             [[1.0 / self.moment, self.length / self.moment], [1.0 / self.force, self.length / self.force]];

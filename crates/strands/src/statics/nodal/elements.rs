@@ -105,7 +105,7 @@ impl Kernel for Linearise<'_> {
             let share = Lanes::from_fn(|i| lent * rod.element_length((first + i).min(n - 1)) / rod.length());
             let Resistance { stiffness, pull, slack } =
                 diagonal_resistance(compliance, rest, share, x, wrench, &turned);
-            let carried = Wrench::new(turned * wrench.angular, turned * wrench.linear);
+            let carried = wrench.turned_by(&turned);
             for i in 0..BATCH.min(n - first) {
                 let mut rows = [[0.0; 6]; 6];
                 for r in 0..6 {

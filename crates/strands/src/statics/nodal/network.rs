@@ -9,7 +9,7 @@ use super::elimination::{
     SMALLEST_PIVOT, Square, add, block_from, on_far, pair, parts, product, seen_from_near, subtract,
     subtract_dead_moment_slope, transposed,
 };
-use super::{Axes, Inertial, Nodal, about, grip_acts};
+use super::{Axes, Inertial, Nodal, grip_acts};
 use crate::assembly::{Assembly, Body, Member, Ties};
 use crate::math::{Kernel, Pose, SimdLevel, Vec3, Vec6, Wrench, dispatch, larger};
 use crate::statics::Support;
@@ -244,7 +244,12 @@ impl Network {
         subtract_dead_moment_slope(&mut resists, load.linear);
         subtract(&mut resists, &slope.to_rows());
         let resists = block_from(&-place, &resists);
-        self.free.push(FreeFrame { place, load: about(place, load), resists, unsure: unsure / axes.force });
+        self.free.push(FreeFrame {
+            place,
+            load: load.wrench_from(place),
+            resists,
+            unsure: unsure / axes.force,
+        });
     }
 
     /// Puts the rods' systems and the bodies' together. Gives the largest force (over `EI/L²`) and moment (over `EI/L`) by which an unknown is out of
@@ -301,13 +306,13 @@ impl Network {
                 self.add_block(frame + 1, frame, &negative(&near));
             }
             self.add_block(frame, frame, &block);
-            self.add_right(frame, about(nodal.places[node], nodal.acting(node)));
+            self.add_right(frame, nodal.acting(node).wrench_from(nodal.places[node]));
         }
         // In the rod's own units: a thick trunk's round-off is not a twig's imbalance.
         let own = assembly.strands[rod].problem.rod.scale().force / self.axes.force;
         let carried = nodal.links.iter().fold(own, |max: f64, link| max.max(link.carried.max_abs()));
         for node in 0..=nodal.links.len() {
-            self.weigh_unknowns(first + node, about(nodal.places[node], nodal.imbalance(node)), carried);
+            self.weigh_unknowns(first + node, nodal.imbalance(node).wrench_from(nodal.places[node]), carried);
         }
     }
 
@@ -315,7 +320,7 @@ impl Network {
     fn weigh<'a>(&mut self, nodals: impl Iterator<Item = &'a Nodal>) {
         self.borne.clear();
         for nodal in nodals {
-            let imbalance = |node: usize| about(nodal.places[node], nodal.imbalance(node));
+            let imbalance = |node: usize| nodal.imbalance(node).wrench_from(nodal.places[node]);
             self.borne.extend((0..=nodal.links.len()).map(imbalance));
         }
         self.borne.extend(self.free.iter().map(|body| body.load));
@@ -398,7 +403,7 @@ impl Network {
             let of = &mut self.imbalance[*unknown];
             self.scale[*unknown] = self.scale[*unknown].max(carried);
             if *whole {
-                let acts = parts(about(-self.abouts[*unknown], acts));
+                let acts = parts(acts.wrench_from(-self.abouts[*unknown]));
                 of.iter_mut().zip(acts).for_each(|(of, acts)| *of += acts);
             } else {
                 for (acts, motions) in parts(acts).iter().zip(motions) {
@@ -496,10 +501,9 @@ impl Network {
         }
     }
 
-    /// What is left over of what acts on a frame and all that hangs from it: force, and moment about the network's origin, in the world.
-    pub fn left_over(&self, frame: usize) -> Wrench {
-        let about_origin = self.axes.in_units(self.borne[frame]);
-        Wrench::new(about_origin.angular + self.axes.origin.cross(about_origin.linear), about_origin.linear)
+    /// What is left over of what acts on a frame and all that hangs from it: force, and moment about a place, in the world.
+    pub fn left_over(&self, frame: usize, place: Vec3) -> Wrench {
+        self.axes.in_units(self.borne[frame]).wrench_from(self.axes.origin - place)
     }
 
     /// The frames from which all others hang.

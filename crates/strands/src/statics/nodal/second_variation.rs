@@ -69,7 +69,7 @@ impl SecondVariation {
             Node { resistance: Mat6::ZERO, share: 0.5 * beside / rod.length() }
         }));
         let mut add = |node: usize, resistance: Mat6| {
-            let to_fixed = nodal.axes.turned(&state.poses[node]).adjoint_matrix();
+            let to_fixed = state.poses[node].from_itself().adjoint_matrix();
             let local = to_fixed.transpose().mul(&resistance).mul(&to_fixed);
             let all = &mut self.nodes[node].resistance;
             *all = all.add(&symmetric(&local));
@@ -281,7 +281,7 @@ impl Nodal {
     /// Takes from a motion of the nodes, each in its own frame, what the supports do not allow.
     pub fn keep_to_holds(&self, state: &Record, motion: &mut [Vec6]) {
         for hold in &self.holds {
-            let frame = self.axes.turned(&state.poses[hold.node]);
+            let frame = state.poses[hold.node].from_itself();
             let step = frame.adjoint_matrix().mul_vec(motion[hold.node]);
             let allowed = hold.parts().map_or(Vec6::ZERO, |parts| hold.free().mul_vec(parts.mul_vec(step)));
             motion[hold.node] = frame.inverse().adjoint_matrix().mul_vec(allowed);

@@ -13,8 +13,7 @@ use super::{Axes, Hold, Link, Nodal, logs, out_of_balance};
 use crate::element::{Resistance, diagonal_resistance};
 use crate::math::{Kernel, Mat3, Pose, Real, Register, Vec3, Vec6, Wide, Wrench, larger, largest};
 
-/// As many rods as there are lanes, their states, and their linear systems. All in each rod's own fixed axes, in which lengths, forces and moments
-/// are numbers of order one.
+/// As many rods as there are lanes, their states, and their linear systems. All in each rod's own axes, as those of one rod.
 #[derive(Clone, Debug)]
 pub(crate) struct SideBySide<R> {
     /// How many rods there are; lanes beyond them repeat the last.
@@ -184,7 +183,7 @@ impl<R: Register> SideBySide<R> {
                 if end.fixed == [true; 6] {
                     continue;
                 }
-                let turned = Pose { position: Vec3::ZERO, ..poses[node].lane(lane) };
+                let turned = poses[node].lane(lane).from_itself();
                 let free = displacements(end, &turned).to_rows();
                 let curved = displacements_slope(end, &turned, imbalance.lane(lane)).to_rows();
                 for r in 0..6 {
@@ -308,7 +307,7 @@ impl<R: Wide> Kernel for LineariseAll<'_, R> {
             put_block(&mut link.stiffness, 0, 3, &stiffness[0][1]);
             put_block(&mut link.stiffness, 3, 0, &stiffness[1][0]);
             put_block(&mut link.stiffness, 3, 3, &stiffness[1][1]);
-            link.carried = Wrench::new(turned * wrench.angular, turned * wrench.linear);
+            link.carried = wrench.turned_by(&turned);
             link.pull = pull;
         }
         system.loads.clear();
@@ -316,8 +315,7 @@ impl<R: Wide> Kernel for LineariseAll<'_, R> {
         for (i, pose) in poses.iter().enumerate() {
             let mut acts = dead[i];
             if *any_follower {
-                let (rotation, load) = (&pose.rotation, follower[i]);
-                let carried = Wrench::new(*rotation * load.angular, *rotation * load.linear);
+                let carried = follower[i].turned_by(&pose.rotation);
                 acts += carried;
                 let mut slope = [[zero; 6]; 6];
                 add_coadjoint(&mut slope, carried);
