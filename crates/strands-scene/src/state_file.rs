@@ -5,6 +5,9 @@ use strands::dynamics::{Means, Past, Power, State};
 use strands::math::{Mat3, Pose, Vec3, Vec6};
 use thiserror::Error;
 
+/// In the first format angular momenta were about a place of all.
+const FORMAT: u32 = 2;
+
 /// What a state's file is not.
 #[derive(Debug, Error)]
 pub enum StateError {
@@ -12,7 +15,7 @@ pub enum StateError {
     #[error("not the state of a simulation: {0}; give a file that `strands simulate --save` has written")]
     Form(#[from] serde_json::Error),
     /// It is of another version.
-    #[error("a state of format {0}, and this program reads format 1")]
+    #[error("a state of format {0}, and this program reads format {FORMAT}; write it anew with `strands simulate --save`", FORMAT = FORMAT)]
     Format(u32),
 }
 
@@ -54,7 +57,7 @@ struct WrittenMeans {
 /// The state as a file's text.
 pub fn state_json(state: &State) -> String {
     let written = Written {
-        format: 1,
+        format: FORMAT,
         time: state.time,
         poses: poses_out(&state.poses),
         velocities: sixes_out(&state.velocities),
@@ -89,7 +92,7 @@ pub fn state_json(state: &State) -> String {
 /// Where it is not the text of a state.
 pub fn read_state(text: &str) -> Result<State, StateError> {
     let written: Written = serde_json::from_str(text)?;
-    if written.format != 1 {
+    if written.format != FORMAT {
         return Err(StateError::Format(written.format));
     }
     let [dissipated, worked] = written.power;

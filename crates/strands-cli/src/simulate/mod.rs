@@ -114,11 +114,24 @@ impl Plan {
             if fits { Ok(value) } else { Err(Failure::bad(format!("{name}: give a number greater than 0"))) }
         };
         let seconds = options.seconds.or(dynamics.duration).unwrap_or(DURATION);
-        let seconds = positive("--seconds", seconds)?.max(0.5 * settings.time_step);
-        let every = options.every.unwrap_or(1.0 / dynamics.output_rate.unwrap_or(OUTPUT_RATE));
-        let every = positive("--every", every)?;
-        let every = if settings.local_error.is_some() { every } else { every.max(settings.time_step) };
-        Ok(Self { settings, seconds, every, start })
+        let seconds = positive("--seconds", seconds)?;
+        let asked = options.every.or(dynamics.output_rate.map(|rate| 1.0 / rate));
+        let every = positive("--every", asked.unwrap_or(1.0 / OUTPUT_RATE))?;
+        if settings.local_error.is_some() {
+            return Ok(Self { settings, seconds, every, start });
+        }
+        let (step, shown) = (settings.time_step, |seconds: f64| engineering(seconds, "s"));
+        if seconds < 0.5 * step {
+            return Err(Failure::bad(format!(
+                "--seconds: {} are less than half a step of {}: nothing would move; give more, or a shorter `dynamics.time_step`",
+                shown(seconds),
+                shown(step)
+            )));
+        }
+        if asked.is_some_and(|every| every < (1.0 - SAME_TIME) * step) {
+            tell(&format!("note: frames are {} apart, a step, and not {}", shown(step), shown(every)));
+        }
+        Ok(Self { settings, seconds, every: every.max(step), start })
     }
 }
 

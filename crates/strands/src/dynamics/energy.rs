@@ -16,7 +16,7 @@ pub struct Budget {
     pub elastic: f64,
     /// Of dead loads and pulls, gravity among them.
     pub load: f64,
-    /// Taken out of it by damping and drag since the start.
+    /// Taken out of it by damping and drag since the start: less than nothing where wind has put in more.
     pub dissipated: f64,
     /// Put into it by supports, hands and loads that follow since the start.
     pub worked: f64,

@@ -89,13 +89,14 @@ pub enum SimulationError {
     },
     /// The state is of another assembly.
     #[error(
-        "the state, of {got} frames, does not fit what moves, of {needed}: give a state of the same rods, elements and bodies"
+        "the state, of {} frames and {} elements, does not fit what moves, of {} and {}: give a state of the same rods, elements and bodies",
+        got[0], got[1], needed[0], needed[1]
     )]
     Unfit {
-        /// How many it has.
-        got: usize,
+        /// How many frames and elements it has.
+        got: [usize; 2],
         /// How many the assembly has.
-        needed: usize,
+        needed: [usize; 2],
     },
     /// The state is none that a step can begin from.
     #[error("the state has numbers that are not finite, or a next step that is not longer than nothing")]

@@ -1,15 +1,14 @@
 //! What inertia exerts on frames in a stage, several side by side.
 
 use super::stage::Stage;
-use crate::math::{Kernel, Lanes, Mat3, Pose, Real, Vec3, Vec6, Wrench, exp_coefficients};
+use crate::math::{Kernel, Lanes, Mat3, Pose, Real, Vec3, Vec6, Wrench, exp_coefficients, turns};
 use crate::rod::NodeInertia;
-use crate::statics::{Inertial, logs};
 
 const SIDE: usize = 8;
 type Side = Vec3<Lanes<SIDE>>;
 
-/// Takes what inertia exerts on frames from the first on, and how they move.
-pub(super) struct TakeInertia<'a> {
+/// Takes what inertia exerts on frames from the first on, and how they move; with slopes, how that changes with the frames.
+pub(super) struct TakeInertia<'a, const SLOPES: bool> {
     pub stage: &'a mut Stage,
     pub first: usize,
     pub inertia: &'a [NodeInertia],
@@ -18,7 +17,7 @@ pub(super) struct TakeInertia<'a> {
     pub lost: f64,
 }
 
-impl Kernel for TakeInertia<'_> {
+impl<const SLOPES: bool> Kernel for TakeInertia<'_, SLOPES> {
     type Output = ();
 
     #[inline(always)]
@@ -34,17 +33,14 @@ impl Kernel for TakeInertia<'_> {
             for lane in 0..SIDE {
                 let (i, pose) = (first + at(lane), &poses[at(lane)]);
                 let before = &stage.base[i];
-                for k in 0..3 {
-                    base.cols[k].put(lane, before.rotation.cols[k]);
-                    rotation.cols[k].put(lane, pose.rotation.cols[k]);
-                }
+                base.put(lane, &before.rotation);
+                rotation.put(lane, &pose.rotation);
                 shift.put(lane, pose.position - before.position);
                 rotational.put(lane, inertia[i].rotational);
                 offset.put(lane, stage.offsets[i]);
                 known.put(lane, stage.known_momenta[i]);
             }
-            let relative = Pose { rotation: base.transpose() * rotation, position: Side::zero() };
-            let q = Vec6::new(logs(&relative).angular, shift);
+            let q = Vec6::new(turns(&(base.transpose() * rotation)), shift);
             let per_rate = Lanes::splat(1.0 / stage.of_rate);
             let per_momentum = per_rate + Lanes::splat(lost);
             let rate = (q - offset) * per_rate;
@@ -61,16 +57,13 @@ impl Kernel for TakeInertia<'_> {
                 stage.coordinate_rates[i] = rate;
                 stage.velocities[i] = Vec6::new(turning.velocity.lane(lane), rate.linear);
                 stage.momenta[i] = Wrench::new(spin.lane(lane), linear.lane(lane));
-                let per_shift = -per_momentum.0[lane] * per_rate.0[lane] * mass.0[lane];
-                stage.inertial[i] = Inertial {
-                    exerts: exerts.lane(lane),
-                    by_turn: Mat3::from_cols(
-                        by_turn.cols[0].lane(lane),
-                        by_turn.cols[1].lane(lane),
-                        by_turn.cols[2].lane(lane),
-                    ),
-                    by_shift: Mat3::diagonal(Vec3::new(per_shift, per_shift, per_shift)),
-                };
+                let inertial = &mut stage.inertial[i];
+                inertial.exerts = exerts.lane(lane);
+                if SLOPES {
+                    let per_shift = -per_momentum.0[lane] * per_rate.0[lane] * mass.0[lane];
+                    inertial.by_turn = by_turn.lane(lane);
+                    inertial.by_shift = Mat3::diagonal(Vec3::new(per_shift, per_shift, per_shift));
+                }
             }
         }
     }

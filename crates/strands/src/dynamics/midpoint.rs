@@ -146,10 +146,10 @@ impl Simulation {
         let stage = &mut self.work.stage;
         stage.set_up(0.5 * step, &self.state);
         held.halfway(middle, self);
-        let Work { stage, poses, .. } = &mut self.work;
+        let Work { level, stage, poses, .. } = &mut self.work;
         stage.middle = true;
         stage.velocities_before.clone_from(&self.state.velocities);
-        stage.predict(&self.state.velocities, poses);
+        stage.predict(&self.state.velocities, poses, *level);
         let solved = self.solve_stage();
         let mut lost = Power::default();
         lost.add(self.power(), step);

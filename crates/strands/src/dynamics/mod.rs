@@ -5,6 +5,7 @@
 //! Nothing is damped but by what is asked for, and by the [`Integrator`] where its documentation says so.
 
 mod by_error;
+mod coordinates;
 mod energy;
 mod failure;
 mod holds;
@@ -60,7 +61,7 @@ impl Default for Settings {
             integrator: Integrator::Bdf2,
             time_step: 1e-3,
             local_error: None,
-            tolerance: 1e-9,
+            tolerance: 1e-8,
             max_iterations: 20,
             bounded: false,
             mass_damping: 0.0,
@@ -237,9 +238,8 @@ impl Simulation {
     /// # Errors
     /// Where it is of another assembly, or no step can begin from it.
     pub fn restore(&mut self, state: State) -> Result<(), SimulationError> {
-        let needed = self.assembly.frames();
-        let got = state.poses.len();
-        if !state.fits(needed, self.state.wrenches.len()) {
+        let [got, needed] = [&state, &self.state].map(|state| [state.poses.len(), state.wrenches.len()]);
+        if !state.fits(needed) {
             return Err(SimulationError::Unfit { got, needed });
         }
         if !state.can_begin() {

@@ -5,7 +5,7 @@ use super::{Simulation, StepFailure, Taken};
 use crate::assembly::{Assembly, Member, Ties};
 use crate::math::{Pose, SimdLevel, Vec3, Wrench, larger};
 use crate::rod::{Kinematics, NodeInertia};
-use crate::statics::{Motion, Network, Nodal, Problem, Record, Support, meet, rigid_compliance};
+use crate::statics::{Motion, Network, Nodal, Problem, Record, Slopes, Support, meet, rigid_compliance};
 use core::ops::Range;
 
 /// Round-off of a frame, with room, over that of a number.
@@ -13,6 +13,14 @@ const ROUND_OFF: f64 = 4.0;
 
 /// A stage of bounded cost that leaves more than this over is of no use.
 const USABLE: f64 = 0.1;
+
+/// After a step of no more than this, rad and over half the length, slopes are kept.
+const NEAR: f64 = 1e-2;
+/// Slopes serve as long as each step leaves no more than this part of the residual.
+const SERVES: f64 = 1e-2;
+
+/// What a guess may leave over, beside what a solution may: else what is nearly at rest would stay where it is.
+const OF_GUESS: f64 = 1e-2;
 
 /// In a stage so long, s, nothing accelerates.
 const LONG: f64 = 1e9;
@@ -66,7 +74,7 @@ impl RodSystem {
         self.first_element..self.first_element + self.record.wrenches.len()
     }
 
-    fn take_motion(&mut self, given: &Given, stage: &mut Stage) {
+    fn take_motion(&mut self, given: &Given, stage: &mut Stage, slopes: Slopes) {
         let strand = &given.assembly.strands[self.rod];
         let (nodes, elements) = (self.nodes(), self.elements());
         let moves = strand.drag != Default::default();
@@ -81,7 +89,7 @@ impl RodSystem {
             stage.take_secants(elements, self.first, elastic, viscosity, poses);
             return;
         }
-        stage.take_inertia(nodes, given.inertia, poses, &resistance, given.level);
+        stage.take_inertia(nodes, given.inertia, poses, &resistance, (given.level, slopes));
         if viscosity > 0.0 {
             stage.take_viscosity(elements, elastic, viscosity);
         }
@@ -162,19 +170,18 @@ impl Group {
         }
     }
 
-    /// Linearises the group about its frames; gives the residual.
-    fn linearise(&mut self, given: &Given, stage: &mut Stage, poses: &mut [Pose]) -> f64 {
+    /// Linearises the group about its frames, or where the slopes are kept looks at how far these are from what must hold; gives the residual.
+    fn linearise(&mut self, given: &Given, stage: &mut Stage, poses: &mut [Pose], slopes: Slopes) -> f64 {
         let Given { assembly, level, .. } = *given;
         for system in &mut self.rods {
-            system.take_motion(given, stage);
+            system.take_motion(given, stage, slopes);
         }
         if self.network.is_none() {
             let [system] = &mut self.rods[..] else { return f64::NAN };
             let problem = &assembly.strands[system.rod].problem;
             let motion = system.motion(assembly, stage);
-            let lent = lent(problem, stage.of_rate);
-            let distance = system.nodal.linearise_moving(problem, level, lent, &motion, &mut system.record);
-            return distance.map_or(f64::NAN, |distance| distance.residual());
+            let lends = (lent(problem, stage.of_rate), slopes);
+            return system.nodal.linearise_moving(problem, level, lends, &motion, &system.record).residual();
         }
         self.give_frames(poses);
         let Some(network) = &mut self.network else { return f64::NAN };
@@ -184,18 +191,15 @@ impl Group {
         for system in &mut self.rods {
             let problem = &assembly.strands[system.rod].problem;
             let motion = system.motion(assembly, stage);
-            let lent = lent(problem, stage.of_rate);
+            let lends = (lent(problem, stage.of_rate), slopes);
             let RodSystem { nodal, record, .. } = system;
-            let Some(distance) = nodal.linearise_in(axes, problem, level, lent, &motion, record) else {
-                return f64::NAN;
-            };
-            slack = larger(slack, distance.slack);
+            slack = larger(slack, nodal.linearise_in(axes, problem, level, lends, &motion, record).slack);
         }
         let resistance = Resistance { lost: given.lost, air: None };
         for &body in &self.bodies {
             let frame = assembly.first_body() + body;
             let pose = poses[frame];
-            stage.take_inertia(frame..frame + 1, given.inertia, &[pose], &resistance, level);
+            stage.take_inertia(frame..frame + 1, given.inertia, &[pose], &resistance, (level, slopes));
             let NodeInertia { mass, .. } = given.inertia[frame];
             let moved = f64::EPSILON * pose.position.max_abs() / (stage.of_rate * stage.of_rate);
             let unsure = ROUND_OFF * mass * moved / given.tolerance;
@@ -207,23 +211,34 @@ impl Group {
         )
     }
 
-    /// Solves for a step; `None` where a pivot vanishes.
-    fn solve(&mut self, level: SimdLevel) -> Option<usize> {
+    /// Whether slopes can be kept: where the work is in them.
+    fn keeps_slopes(&self, stage: &Stage) -> bool {
+        self.network.is_none() && !stage.middle
+    }
+
+    /// Solves for a step, with slopes that were kept as they were solved with last; `None` where a pivot vanishes.
+    fn solve(&mut self, level: SimdLevel, slopes: Slopes) -> Option<usize> {
         match &mut self.network {
+            None if slopes == Slopes::Kept => {
+                let RodSystem { nodal, record, .. } = &mut self.rods[0];
+                nodal.solve_again(level, record);
+                Some(0)
+            }
             Some(network) => network.solve(level, self.rods.iter_mut().map(|system| &mut system.nodal)),
             None => self.rods[0].nodal.solve(level, 0.0),
         }
     }
 
-    /// Takes the step, but so little of it that no frame turns by more than a radian at once.
-    fn step(&mut self, assembly: &Assembly, ties: &Ties, level: SimdLevel, poses: &mut [Pose]) {
+    /// Takes the step, but so little of it that no frame turns by more than a radian at once. Gives the step's size, the largest turn (rad) and shift (over half
+    /// the length).
+    fn step(&mut self, assembly: &Assembly, ties: &Ties, level: SimdLevel, poses: &mut [Pose]) -> f64 {
         let rods = self.rods.iter().map(|system| system.nodal.step_size()).fold(0.0, larger);
         let size = self.network.as_ref().map_or(rods, |network| larger(rods, network.step_size()));
         let part = (1.0 / size).min(1.0);
         for RodSystem { rod, nodal, record, .. } in &mut self.rods {
             nodal.take(&assembly.strands[*rod].problem, level, part, record);
         }
-        let Some(network) = &self.network else { return };
+        let Some(network) = &self.network else { return size };
         self.give_frames(poses);
         for (at, body) in self.bodies.iter().enumerate() {
             let pose = &mut poses[assembly.first_body() + body];
@@ -231,6 +246,7 @@ impl Group {
         }
         self.meet(assembly, ties, poses);
         self.take_frames(poses);
+        size
     }
 
     /// What is left over of a frame of the group and what hangs from it: force, and moment about a place.
@@ -297,7 +313,7 @@ impl Simulation {
                 tolerance: settings.tolerance,
                 level: work.level,
             };
-            group.linearise(&given, &mut work.stage, &mut work.poses);
+            group.linearise(&given, &mut work.stage, &mut work.poses, Slopes::Anew);
         }
     }
 
@@ -306,16 +322,17 @@ impl Simulation {
         let group = &mut work.groups[group];
         let (ties, stage, level) = (&work.ties, &mut work.stage, work.level);
         group.guess(assembly, ties, &mut work.poses, state);
-        let floor = group.rods.iter().map(|system| {
+        let floors = group.rods.iter().map(|system| {
             round_off(&assembly.strands[system.rod].problem, &system.record.poses, stage.of_rate)
         });
+        let floor = floors.fold(0.0, f64::max);
         let given = Given {
             assembly,
             ties,
             inertia: &work.inertia,
             lengths: &work.lengths,
             lost: settings.mass_damping,
-            tolerance: floor.fold(settings.tolerance, f64::max),
+            tolerance: settings.tolerance.max(floor),
             level,
         };
         work.history.clear();
@@ -324,14 +341,22 @@ impl Simulation {
         let mut iterations = 0;
         // What is left over of a step that keeps energy adds up over all steps: one iteration more takes it to round-off.
         let mut last = !stage.middle;
+        let of_guess = floor.max(OF_GUESS * settings.tolerance);
+        let (mut slopes, mut before) = (Slopes::Anew, f64::INFINITY);
         let residual = loop {
-            let residual = group.linearise(&given, stage, &mut work.poses);
+            let mut residual = group.linearise(&given, stage, &mut work.poses, slopes);
+            let serves = residual <= given.tolerance.max(SERVES * before);
+            if slopes == Slopes::Kept && !serves {
+                slopes = Slopes::Anew;
+                residual = group.linearise(&given, stage, &mut work.poses, slopes);
+            }
+            before = residual;
             work.history.push(residual);
             if !residual.is_finite() {
                 return Err(singular(&work.history));
             }
             let spent = iterations == settings.max_iterations;
-            let solved = residual <= given.tolerance;
+            let solved = residual <= if iterations == 0 { of_guess } else { given.tolerance };
             if spent && (settings.bounded && residual <= USABLE || solved)
                 || solved && last && !settings.bounded
             {
@@ -341,10 +366,12 @@ impl Simulation {
             if spent {
                 return Err(StepFailure::NotConverged { time, step, history: work.history.clone() });
             }
-            if group.solve(level).is_none() {
+            if group.solve(level, slopes).is_none() {
                 return Err(singular(&work.history));
             }
-            group.step(assembly, ties, level, &mut work.poses);
+            let size = group.step(assembly, ties, level, &mut work.poses);
+            let near = size <= NEAR && group.keeps_slopes(stage);
+            slopes = if near { Slopes::Kept } else { Slopes::Anew };
             iterations += 1;
         };
         group.give_frames(&mut work.poses);

@@ -147,10 +147,10 @@ impl Simulation {
                 stage.add_history(a * h, coordinates, momenta, &strain_rates[of_elements]);
             }
             held.at(piece.begin + method.time(number) * piece.length, self);
-            let Work { stage, coordinate_rates, poses, .. } = &mut self.work;
+            let Work { level, stage, coordinate_rates, poses, .. } = &mut self.work;
             match coordinate_rates.len().checked_sub(frames) {
-                None => stage.predict(&self.state.velocities, poses),
-                Some(last) => stage.predict(&coordinate_rates[last..], poses),
+                None => stage.predict(&self.state.velocities, poses, *level),
+                Some(last) => stage.predict(&coordinate_rates[last..], poses, *level),
             }
             taken.add(self.solve_stage()?);
             let Work { stage, coordinate_rates, momentum_rates, strain_rates, .. } = &mut self.work;
@@ -168,14 +168,14 @@ impl Simulation {
     fn bdf2(&mut self, held: &Held) -> Result<Taken, StepFailure> {
         let h = self.work.step;
         self.begin();
-        let Work { stage, viscous, .. } = &mut self.work;
+        let Work { level, stage, viscous, .. } = &mut self.work;
         stage.set_up(2.0 / 3.0 * h, &self.state);
         if let Past::Before { poses, momenta } = &self.state.past {
-            stage.look_back(poses, momenta, viscous);
+            stage.look_back((poses, momenta), &self.state.velocities, viscous, *level);
         }
         held.at(1.0, self);
-        let Work { stage, poses, .. } = &mut self.work;
-        stage.predict(&self.state.velocities, poses);
+        let Work { level, stage, poses, .. } = &mut self.work;
+        stage.follow(poses, *level);
         let taken = self.solve_stage()?;
         let lost = self.trapezoid(h);
         let state = &mut self.state;
@@ -200,8 +200,8 @@ impl Simulation {
             stage.add_history(h * of_now * alpha_f, &self.state.velocities, momentum, strain);
         }
         held.at(1.0, self);
-        let Work { stage, poses, .. } = &mut self.work;
-        stage.predict(&self.state.velocities, poses);
+        let Work { level, stage, poses, .. } = &mut self.work;
+        stage.predict(&self.state.velocities, poses, *level);
         let taken = self.solve_stage()?;
         let lost = self.trapezoid(h);
         let Self { state, work: Work { stage, poses, .. }, .. } = self;

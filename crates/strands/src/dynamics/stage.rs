@@ -1,12 +1,13 @@
 //! One stage of a step: frames at which momentum has changed by what acts there.
 
 use super::State;
+use super::coordinates::{Follow, LookBack, at_coordinates, coordinates};
 use super::inertia::TakeInertia;
 use crate::assembly::Drag;
 use crate::element::DiagonalPoint;
-use crate::math::{Mat3, Pose, Quat, SimdLevel, Vec3, Vec6, Wrench, dispatch, so3_tangent};
+use crate::math::{Mat3, Pose, SimdLevel, Vec3, Vec6, Wrench, dispatch, so3_tangent};
 use crate::rod::{NodeInertia, exponents};
-use crate::statics::Inertial;
+use crate::statics::{Inertial, Slopes};
 use core::ops::Range;
 
 /// What is known of a stage, and what comes of it.
@@ -91,12 +92,14 @@ impl Stage {
         self.known_momenta.iter_mut().zip(momentum_rates).for_each(|(known, rate)| *known += *rate * times);
     }
 
-    /// For backward differences of order 2: a third of what has changed since the step before goes on.
+    /// For backward differences of order 2: a third of what has changed in the step before, at whose beginning the frames and momenta were these, goes on. Guesses
+    /// the rates too.
     pub fn look_back(
         &mut self,
-        poses: &[Pose],
-        momenta: &[Wrench],
+        (poses, momenta): (&[Pose], &[Wrench]),
+        velocities: &[Vec6],
         viscous: &[(Range<usize>, Range<usize>)],
+        level: SimdLevel,
     ) {
         for (nodes, elements) in viscous {
             for (e, before) in elements.clone().zip(exponents(&poses[nodes.clone()])) {
@@ -104,20 +107,21 @@ impl Stage {
                 self.known_strains[e] += (now - before) * (1.0 / 3.0);
             }
         }
-        for (i, base) in self.base.iter().enumerate() {
-            self.offsets[i] += coordinates(base, &poses[i]) * (-1.0 / 3.0);
-            let now = self.known_momenta[i];
-            self.known_momenta[i] += (now - momenta[i]) * (1.0 / 3.0);
+        for (now, before) in self.known_momenta.iter_mut().zip(momenta) {
+            *now += (*now - *before) * (1.0 / 3.0);
         }
+        dispatch(level, LookBack { stage: self, before: poses, velocities });
     }
 
     /// Guesses the rates of the coordinates, and puts the frames where these lead.
-    pub fn predict(&mut self, rates: &[Vec6], poses: &mut [Pose]) {
+    pub fn predict(&mut self, rates: &[Vec6], poses: &mut [Pose], level: SimdLevel) {
         self.coordinate_rates.copy_from_slice(&rates[..self.base.len()]);
-        for (i, pose) in poses.iter_mut().enumerate() {
-            let q = self.offsets[i] + self.coordinate_rates[i] * self.of_rate;
-            *pose = at_coordinates(&self.base[i], q);
-        }
+        self.follow(poses, level);
+    }
+
+    /// Puts the frames where the rates of their coordinates lead.
+    pub fn follow(&self, poses: &mut [Pose], level: SimdLevel) {
+        dispatch(level, Follow { stage: self, poses });
     }
 
     /// Where a frame would be without a rate, and how much a rate counts, s.
@@ -165,10 +169,15 @@ impl Stage {
         inertia: &[NodeInertia],
         poses: &[Pose],
         resistance: &Resistance,
-        level: SimdLevel,
+        (level, slopes): (SimdLevel, Slopes),
     ) {
         let (first, lost) = (frames.start, resistance.lost);
-        dispatch(level, TakeInertia { stage: self, first, inertia, poses, lost });
+        match slopes {
+            Slopes::Anew => dispatch(level, TakeInertia::<true> { stage: self, first, inertia, poses, lost }),
+            Slopes::Kept => {
+                dispatch(level, TakeInertia::<false> { stage: self, first, inertia, poses, lost })
+            }
+        }
         self.take_drag(frames, poses, resistance);
     }
 
@@ -202,15 +211,4 @@ fn air(drag: &Drag, tangent: Vec3, velocity: Vec3) -> (Vec3, Mat3) {
     let along = normal.normalized().map_or(Mat3::ZERO, |unit| Mat3::outer(unit, unit).scaled(speed));
     let slope = Mat3::IDENTITY.scaled(-drag.linear) - (across.scaled(speed) + along).scaled(drag.quadratic);
     (force, slope)
-}
-
-/// The canonical coordinates of a node's frame about another: its turn as a rotation vector, and its shift in the world.
-fn coordinates(base: &Pose, pose: &Pose) -> Vec6 {
-    Vec6::new(base.rotation.turn_to(&pose.rotation), pose.position - base.position)
-}
-
-/// The frame with these coordinates.
-fn at_coordinates(base: &Pose, q: Vec6) -> Pose {
-    let turn = Quat::from_rotation_vector(q.angular).to_matrix();
-    Pose { rotation: base.rotation * turn, position: base.position + q.linear }
 }

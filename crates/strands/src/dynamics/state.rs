@@ -18,7 +18,7 @@ pub struct State {
     /// The wrench that each element carries through its far node, in that node's frame, where a stage was solved last: rod by rod
     /// ([`Assembly::elements`]).
     pub wrenches: Vec<Wrench>,
-    /// What damping and drag have taken out since the start, J.
+    /// What damping and drag have taken out since the start, J: less than nothing where wind has put in more.
     pub dissipated: f64,
     /// What supports, hands and loads that follow have put in since the start, J.
     pub worked: f64,
@@ -112,7 +112,7 @@ impl State {
     }
 
     /// Whether it is of so many frames and elements.
-    pub(super) fn fits(&self, frames: usize, elements: usize) -> bool {
+    pub(super) fn fits(&self, [frames, elements]: [usize; 2]) -> bool {
         let past = match &self.past {
             Past::None => true,
             Past::Before { poses, momenta } => poses.len() == frames && momenta.len() == frames,

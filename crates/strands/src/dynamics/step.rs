@@ -2,7 +2,7 @@
 
 use super::holds::Held;
 use super::piece::{Piece, WHOLE};
-use super::{Integrator, Simulation, State, Step, StepFailure, Taken};
+use super::{Integrator, Past, Simulation, State, Step, StepFailure, Taken};
 use crate::math::{Pose, larger};
 
 /// Into so many pieces is a step cut that was not solved, one after the other until it is.
@@ -88,8 +88,12 @@ impl Simulation {
         }
         match failure {
             Some(failure) => Err(failure),
-            // Solved, if not followed.
-            None => self.piece(integrator, held, WHOLE).map(|taken| self.report(taken, self.work.step, 1)),
+            // Solved, if not followed: nothing looks back on it.
+            None => {
+                let taken = self.piece(integrator, held, WHOLE)?;
+                self.state.past = Past::None;
+                Ok(self.report(taken, self.work.step, 1))
+            }
         }
     }
 

@@ -156,18 +156,35 @@ impl<R: Wide> Vec6<Vec3<R>> {
 }
 
 #[allow(private_bounds)]
+impl<R: Wide> Mat3<Vec3<R>> {
+    /// Puts a matrix into one lane.
+    #[inline(always)]
+    pub(crate) fn put(&mut self, i: usize, m: &Mat3) {
+        for k in 0..3 {
+            self.cols[k].put(i, m.cols[k]);
+        }
+    }
+
+    /// The matrix in one lane.
+    #[inline(always)]
+    pub(crate) fn lane(&self, i: usize) -> Mat3 {
+        let [a, b, c] = &self.cols;
+        Mat3::from_cols(a.lane(i), b.lane(i), c.lane(i))
+    }
+}
+
+#[allow(private_bounds)]
 impl<R: Wide> Pose<Vec3<R>> {
     /// Puts a pose into one lane.
     #[inline(always)]
     pub(crate) fn put(&mut self, i: usize, pose: &Pose) {
-        (0..3).for_each(|k| self.rotation.cols[k].put(i, pose.rotation.cols[k]));
+        self.rotation.put(i, &pose.rotation);
         self.position.put(i, pose.position);
     }
 
     /// The pose in one lane.
     #[inline(always)]
     pub(crate) fn lane(&self, i: usize) -> Pose {
-        let [a, b, c] = &self.rotation.cols;
-        Pose { rotation: Mat3::from_cols(a.lane(i), b.lane(i), c.lane(i)), position: self.position.lane(i) }
+        Pose { rotation: self.rotation.lane(i), position: self.position.lane(i) }
     }
 }

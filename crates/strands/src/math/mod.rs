@@ -27,7 +27,7 @@ pub use mat6::{Lu, Mat6, lu};
 #[cfg(target_arch = "x86_64")]
 pub(crate) use packed::Packed;
 pub use pose::{Pose, tangent, tangent_inverse};
-pub(crate) use pose::{so3_tangent, so3_tangent_inverse};
+pub(crate) use pose::{logs, so3_tangent, so3_tangent_inverse, turns};
 pub use quat::Quat;
 pub use real::Real;
 pub(crate) use real::{Register, Wide};

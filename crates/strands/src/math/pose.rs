@@ -1,7 +1,7 @@
 //! Poses: the group SE(3) of frames `(R, p)`, its exponential, logarithm and tangent.
 
 use super::series::{BERNOULLI, arcsine_series, bernoulli_series};
-use super::{ExpCoefficients, Mat3, Mat6, Quat, Real, Vec3, Vec6, Vector, exp_coefficients};
+use super::{ExpCoefficients, Mat3, Mat6, Quat, Real, Vec3, Vec6, Vector, Wide, exp_coefficients};
 
 /// A little below it, so that a whole radian is within.
 const COS_OF_HALF_A_RADIAN: f64 = 0.8775;
@@ -67,6 +67,65 @@ impl Pose {
     }
 }
 
+impl<R: Real> Mat3<Vec3<R>> {
+    /// The rotation vector of a turn by less than a radian, without a branch; NaN where it is larger. By the sine of a quarter of the angle, whose inverse
+    /// is a short series.
+    #[inline(always)]
+    pub(crate) fn small_turn(&self) -> Vec3<R> {
+        let ([a, b, c], half) = (self.cols, R::splat(0.5));
+        let sine = Vec3::new(b.z - c.y, c.x - a.z, a.y - b.x) * half;
+        let cos = (a.x + b.y + c.z - R::one()) * half;
+        let cos_half = ((R::one() + cos) * half).sqrt();
+        let cos_quarter = ((R::one() + cos_half) * half).sqrt();
+        let quarters = cos_half * cos_quarter;
+        let sine_quarter = sine * (R::splat(0.25) / quarters);
+        let q = sine_quarter.dot(sine_quarter);
+        let known = R::select((-cos_half).at_most(-COS_OF_HALF_A_RADIAN), R::one(), R::splat(f64::NAN));
+        sine * (arcsine_series(q) / quarters * known)
+    }
+}
+
+/// The logarithms of poses, in lanes.
+#[inline(always)]
+pub(crate) fn logs<R: Wide>(poses: &Pose<Vec3<R>>) -> Vec6<Vec3<R>> {
+    let mut logs = poses.log_of_small_turn();
+    if !R::all(logs.angular.x.at_most(f64::INFINITY)) {
+        log_large_turns(poses, &mut logs);
+    }
+    logs
+}
+
+/// Where a turn is too large for the short way.
+#[cold]
+#[inline(never)]
+fn log_large_turns<R: Wide>(poses: &Pose<Vec3<R>>, logs: &mut Vec6<Vec3<R>>) {
+    for lane in 0..R::LANES {
+        if logs.angular.x.number(lane).is_nan() {
+            logs.put(lane, poses.lane(lane).log());
+        }
+    }
+}
+
+/// The rotation vectors of turns, in lanes.
+#[inline(always)]
+pub(crate) fn turns<R: Wide>(rotations: &Mat3<Vec3<R>>) -> Vec3<R> {
+    let mut turns = rotations.small_turn();
+    if !R::all(turns.x.at_most(f64::INFINITY)) {
+        take_large_turns(rotations, &mut turns);
+    }
+    turns
+}
+
+#[cold]
+#[inline(never)]
+fn take_large_turns<R: Wide>(rotations: &Mat3<Vec3<R>>, turns: &mut Vec3<R>) {
+    for lane in 0..R::LANES {
+        if turns.x.number(lane).is_nan() {
+            turns.put(lane, Quat::from_matrix(rotations.lane(lane)).to_rotation_vector());
+        }
+    }
+}
+
 impl<R: Real> Pose<Vec3<R>> {
     /// The exponential: where the constant strain `x` leads over unit length ((12)–(15) of the paper).
     #[inline(always)]
@@ -87,23 +146,12 @@ impl<R: Real> Pose<Vec3<R>> {
         Self { rotation, position: v + uv * k.b + u.cross(uv) * k.c }
     }
 
-    /// The logarithm of a pose that turns by less than a radian, without a branch; NaN in its turn where it turns further. By the sine of
-    /// a quarter of the angle, whose inverse is a short series.
+    /// The logarithm of a pose that turns by less than a radian; NaN in its turn where it turns further.
     #[inline(always)]
     pub(crate) fn log_of_small_turn(&self) -> Vec6<Vec3<R>> {
-        let ([a, b, c], half) = (self.rotation.cols, R::splat(0.5));
-        let sine = Vec3::new(b.z - c.y, c.x - a.z, a.y - b.x) * half;
-        let cos = (a.x + b.y + c.z - R::one()) * half;
-        let cos_half = ((R::one() + cos) * half).sqrt();
-        let cos_quarter = ((R::one() + cos_half) * half).sqrt();
-        let quarters = cos_half * cos_quarter;
-        let sine_quarter = sine * (R::splat(0.25) / quarters);
-        let q = sine_quarter.dot(sine_quarter);
-        let known = R::select((-cos_half).at_most(-COS_OF_HALF_A_RADIAN), R::one(), R::splat(f64::NAN));
-        let u = sine * (arcsine_series(q) / quarters * known);
-        let p = self.position;
+        let (u, p) = (self.rotation.small_turn(), self.position);
         let up = u.cross(p);
-        Vec6::new(u, p - up * half + u.cross(up) * bernoulli_series(u.dot(u)))
+        Vec6::new(u, p - up * R::splat(0.5) + u.cross(up) * bernoulli_series(u.dot(u)))
     }
 
     /// The inverse.

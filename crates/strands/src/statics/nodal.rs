@@ -25,10 +25,10 @@ mod second_variation;
 mod side_by_side;
 
 use axes::Axes;
-use elements::Linearise;
-pub(crate) use elements::{logs, take_strains};
+use elements::Look;
+pub(crate) use elements::take_strains;
 pub(crate) use elimination::Inertia;
-use elimination::{Block, Eliminate, Square, answer, pair, parts, seen_from_near};
+use elimination::{Block, Eliminate, Square, Substitute, pair, parts, seen_from_near, times};
 pub(crate) use motion::{Inertial, Motion};
 pub(crate) use network::Network;
 pub(crate) use second_variation::SecondVariation;
@@ -39,7 +39,7 @@ use super::boundary::{displacements, displacements_slope, meet};
 use super::march::Record;
 use super::problem::Problem;
 use crate::coupling::Grip;
-use crate::element::{self, Resistance};
+use crate::element::{self, DiagonalPoint, Resistance};
 use crate::math::{Kernel, Mat3, Mat6, Pose, Real, SimdLevel, Vec3, Vec6, Wrench, dispatch, larger, largest};
 use crate::rod::{Order, Rod};
 
@@ -47,14 +47,21 @@ use crate::rod::{Order, Rod};
 /// the axes, which are the worst, have a fourth of it.
 const ROUND_OFF: f64 = 16.0;
 
-/// An element, linearised, as seen from its far node's place.
+/// An element where it is, as seen from its far node's place.
 #[derive(Clone, Copy, Debug)]
 struct Link<R> {
     /// To there from the near node.
     arm: Vec3<R>,
-    stiffness: Square<R>,
     carried: Wrench<Vec3<R>>,
+    /// The change of what it carries that takes up its slack.
     pull: Wrench<Vec3<R>>,
+}
+
+/// How an element resists where it was linearised, as seen from its far node's place, `arm` from its near one's.
+#[derive(Clone, Copy, Debug)]
+struct Resists<R> {
+    arm: Vec3<R>,
+    stiffness: Square<R>,
 }
 
 /// How a node is held: its free displacements, one a column, which freedoms are fixed, and the stiffness that comes from how the free
@@ -73,14 +80,24 @@ struct Hold<R> {
 pub(crate) struct Nodal<R = f64> {
     axes: Axes,
     links: Vec<Link<R>>,
+    resists: Vec<Resists<R>>,
     /// What acts on each node beside its elements, and how that changes with its frame, where it does otherwise than a dead force at its place.
     loads: Vec<Wrench<Vec3<R>>>,
     load_slopes: Vec<(usize, Square<R>)>,
+    /// How what the change of its momentum exerts on each node of a rod that moves changes: the moment with a turn, the force with a shift.
+    inertial_slopes: Vec<[Mat3<Vec3<R>>; 2]>,
     holds: Vec<Hold<R>>,
     /// Where the nodes are, from the axes' origin; of rods side by side, nothing.
     places: Vec<Vec3<R>>,
     /// How the variation of a node, seen from where the one after it is, follows from that one's; in its seventh column what it has by itself.
     follows: Vec<Block<R>>,
+    /// The factors of each node's pivot, of a rod alone.
+    pivots: Vec<Square<R>>,
+    /// How the nodes of a rod that moves were held and turned where its slopes were taken, and how they have turned since: their steps are then in axes
+    /// that are turned back by that. Nothing where slopes are new.
+    held: Vec<Hold<R>>,
+    turned: Vec<Mat3>,
+    since: Vec<Mat3>,
     /// How each node turns (rad) and shifts (over the length).
     pub steps: Vec<Vec6<Vec3<R>>>,
     /// Another right-hand side, where one is asked for, and its solution.
@@ -94,17 +111,30 @@ impl<R> Default for Nodal<R> {
         Self {
             axes: Axes::default(),
             links: Vec::new(),
+            resists: Vec::new(),
             loads: Vec::new(),
             load_slopes: Vec::new(),
+            inertial_slopes: Vec::new(),
             holds: Vec::new(),
             places: Vec::new(),
             follows: Vec::new(),
+            pivots: Vec::new(),
+            held: Vec::new(),
+            turned: Vec::new(),
+            since: Vec::new(),
             steps: Vec::new(),
             others: Vec::new(),
             other_steps: Vec::new(),
             other_pulls: Vec::new(),
         }
     }
+}
+
+/// Whether how all resists is taken anew where a rod is looked at, or stays as it was when it was solved last: near by, that serves.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(crate) enum Slopes {
+    Anew,
+    Kept,
 }
 
 /// How far a state is from equilibrium.
@@ -135,7 +165,7 @@ impl Nodal {
         state: &mut Record,
     ) -> Option<Distance> {
         self.axes = Axes::new(problem, state);
-        self.linearise_in_its_axes(problem, level, lent, None, state)
+        self.linearise_in_its_axes(problem, level, lent, state)
     }
 
     fn linearise_in_its_axes(
@@ -143,26 +173,40 @@ impl Nodal {
         problem: &Problem,
         level: SimdLevel,
         lent: f64,
-        motion: Option<&Motion>,
         state: &mut Record,
     ) -> Option<Distance> {
+        let rod = &problem.rod;
+        let slack = match if rod.order() == Order::Second { rod.diagonal_points() } else { None } {
+            Some(points) => self.look_at_elements(rod, points, level, (lent, Slopes::Anew), state),
+            None => self.linearise_any(rod, lent, state)?,
+        };
+        self.inertial_slopes.clear();
+        self.since.clear();
+        self.load(problem, state);
+        Some(self.measure(problem, level, slack, state))
+    }
+
+    /// Looks at elements of order 2 with a diagonal law. Gives the largest slack.
+    fn look_at_elements(
+        &mut self,
+        rod: &Rod,
+        points: &[DiagonalPoint],
+        level: SimdLevel,
+        (lent, slopes): (f64, Slopes),
+        state: &Record,
+    ) -> f64 {
+        let Self { axes, links, resists, .. } = self;
+        match slopes {
+            Slopes::Anew => dispatch(level, Look::<true> { rod, points, axes, lent, state, links, resists }),
+            Slopes::Kept => dispatch(level, Look::<false> { rod, points, axes, lent, state, links, resists }),
+        }
+    }
+
+    /// Ends a look: what supports hold, and how far all is from equilibrium.
+    fn measure(&mut self, problem: &Problem, level: SimdLevel, slack: f64, state: &Record) -> Distance {
         let axes = self.axes;
         self.places.clear();
         self.places.extend(state.poses.iter().map(|pose| axes.at(pose.position)));
-        self.links.clear();
-        let rod = &problem.rod;
-        let points = if rod.order() == Order::Second { rod.diagonal_points() } else { None };
-        let slack = match motion.map(|motion| motion.points).or(points) {
-            Some(points) => {
-                let links = &mut self.links;
-                dispatch(level, Linearise { rod, points, axes: &axes, lent, state, links })
-            }
-            None => self.linearise_any(rod, &axes, lent, state)?,
-        };
-        self.load(problem, &axes, state);
-        if let Some(motion) = motion {
-            self.move_with(motion.inertial, &axes);
-        }
         self.load_slopes.sort_unstable_by_key(|(node, _)| *node);
         self.holds.clear();
         for (node, end) in problem.supports() {
@@ -171,15 +215,16 @@ impl Nodal {
             let free = displacements(end, &turned).to_rows();
             self.holds.push(Hold { node, free, fixed: end.fixed.map(f64::from), curved });
         }
-        let carried = self.links.iter().fold(1.0, |max: f64, link| max.max(link.carried.max_abs()));
-        let out_of_balance = |i: usize| largest(&self.out_of_balance(i).to_array());
-        let imbalance = (0..=rod.elements()).map(out_of_balance).fold(0.0, larger);
-        Some(Distance { imbalance: imbalance / carried, slack: slack * rod.elements() as f64 })
+        let imbalance = dispatch(level, Imbalance { system: self });
+        Distance { imbalance, slack: slack * self.links.len() as f64 }
     }
 
     /// Elements of any order and law, one after the other. Gives the largest slack.
-    fn linearise_any(&mut self, rod: &Rod, axes: &Axes, lent: f64, state: &mut Record) -> Option<f64> {
+    fn linearise_any(&mut self, rod: &Rod, lent: f64, state: &mut Record) -> Option<f64> {
+        let Self { axes, links, resists, .. } = self;
         let mut worst = 0.0;
+        links.clear();
+        resists.clear();
         for e in 0..rod.elements() {
             let (near, far) = (&state.poses[e], &state.poses[e + 1]);
             let relative = near.between(far);
@@ -191,13 +236,15 @@ impl Nodal {
             let stiffness = axes.stiffness(&Mat6 { blocks: stiffness }).to_rows();
             let arm = (far.position - near.position) * (1.0 / axes.length);
             let carried = axes.wrench(w.turned_by(turned));
-            self.links.push(Link { arm, stiffness, carried, pull: axes.wrench(pull) });
+            links.push(Link { arm, carried, pull: axes.wrench(pull) });
+            resists.push(Resists { arm, stiffness });
         }
         Some(worst)
     }
 
     /// What acts on the nodes beside the elements.
-    fn load(&mut self, problem: &Problem, axes: &Axes, state: &Record) {
+    fn load(&mut self, problem: &Problem, state: &Record) {
+        let axes = &{ self.axes };
         self.loads.clear();
         self.load_slopes.clear();
         for (i, pose) in state.poses.iter().enumerate() {
@@ -231,11 +278,6 @@ impl Nodal {
         }
     }
 
-    /// By what a node is out of balance, about itself, without what its hold takes.
-    fn out_of_balance(&self, node: usize) -> Wrench {
-        out_of_balance(self.imbalance(node), self.holds.iter().find(|hold| hold.node == node))
-    }
-
     /// Takes for the other right-hand side how what acts changes on the way to another problem (`step` long), whose supports `moved` meets
     /// already. `None` as for [`Nodal::linearise`].
     pub fn linearise_towards(
@@ -247,7 +289,7 @@ impl Nodal {
         scratch: &mut Self,
     ) -> Option<()> {
         scratch.axes = self.axes;
-        scratch.linearise_in_its_axes(problem, level, lent, None, moved)?;
+        scratch.linearise_in_its_axes(problem, level, lent, moved)?;
         // Seen from where the node is here.
         let slope = |node: usize, there: Wrench, here: Wrench| {
             (there.wrench_from(scratch.places[node] - self.places[node]) - here) * (1.0 / step)
@@ -285,6 +327,14 @@ impl Nodal {
         let drag = drag / self.links.len() as f64;
         let Inertia { negative, vanished } = dispatch(level, Eliminate { nodal: self, drag });
         (vanished == 0.0).then_some(negative as usize)
+    }
+
+    /// Solves a rod that moves once more, for what acts now, with the slopes that were taken last: these are as if they had turned with its nodes.
+    pub fn solve_again(&mut self, level: SimdLevel, state: &Record) {
+        let Self { since, turned, .. } = self;
+        since.clear();
+        since.extend(state.poses.iter().zip(turned).map(|(pose, then)| pose.rotation * then.transpose()));
+        dispatch(level, Substitute { nodal: self });
     }
 
     /// Makes the step one of the given size along a motion of the nodes, each in its own frame, and what takes up the slack.
@@ -340,12 +390,19 @@ impl Kernel for Take<'_> {
         let Self { nodal, part, state } = self;
         let axes = nodal.axes;
         for (e, link) in nodal.links.iter().enumerate() {
+            let mut change = nodal.resists[e].change(nodal.steps[e], nodal.steps[e + 1]);
+            if let Some(since) = nodal.since.get(e + 1) {
+                change = change.turned_by(since);
+            }
             let far = &state.poses[e + 1].rotation;
-            let change = link.change(nodal.steps[e], nodal.steps[e + 1], part, far);
-            state.wrenches[e] += axes.in_units(change);
+            state.wrenches[e] += axes.in_units(((change + link.pull) * part).turned_back_by(far));
         }
         for (i, pose) in state.poses.iter_mut().enumerate() {
-            let moved = Pose::exp(nodal.steps[i] * part);
+            let mut step = nodal.steps[i];
+            if let Some(since) = nodal.since.get(i) {
+                step = step.turned_by(since);
+            }
+            let moved = Pose::exp(step * part);
             *pose = Pose {
                 rotation: moved.rotation * pose.rotation,
                 position: pose.position + moved.position * axes.length,
@@ -354,26 +411,13 @@ impl Kernel for Take<'_> {
     }
 }
 
-impl<R: Real> Link<R> {
-    /// How the wrench that it carries changes when its nodes take a part of their steps, in the frame of its far node, which is turned so.
+impl<R: Real> Resists<R> {
+    /// How the wrench that the element carries changes with its nodes' steps, seen from the far one's place.
     #[inline(always)]
-    fn change(
-        &self,
-        near: Vec6<Vec3<R>>,
-        far: Vec6<Vec3<R>>,
-        part: R,
-        turned: &Mat3<Vec3<R>>,
-    ) -> Wrench<Vec3<R>> {
+    fn change(&self, near: Vec6<Vec3<R>>, far: Vec6<Vec3<R>>) -> Wrench<Vec3<R>> {
         let turn = far.angular - near.angular;
         let shift = far.linear - near.linear + self.arm.cross(near.angular);
-        let apart = parts(Vec6::new(turn, shift));
-        let mut force = [R::zero(); 6];
-        for (force, row) in force.iter_mut().zip(&self.stiffness) {
-            *force = (row[0] * apart[0] + row[1] * apart[1])
-                + (row[2] * apart[2] + row[3] * apart[3])
-                + (row[4] * apart[4] + row[5] * apart[5]);
-        }
-        ((pair(force) + self.pull) * part).turned_back_by(turned)
+        pair(times(&self.stiffness, &parts(Vec6::new(turn, shift))))
     }
 }
 
@@ -383,9 +427,9 @@ impl<R: Real> Nodal<R> {
     pub fn round_off(&self) -> R {
         // The largest entry of a positive matrix lies on its diagonal.
         let mut stiffest = R::zero();
-        for link in &self.links {
+        for resists in &self.resists {
             for k in 0..6 {
-                stiffest = larger(stiffest, link.stiffness[k][k].abs());
+                stiffest = larger(stiffest, resists.stiffness[k][k].abs());
             }
         }
         stiffest * R::splat(ROUND_OFF * f64::EPSILON * self.links.len() as f64)
@@ -419,8 +463,8 @@ impl<R: Real> Nodal<R> {
         let last = self.links.len();
         self.steps[last] = end;
         for i in (0..last).rev() {
-            let next = answer(&self.follows[i], &parts(self.steps[i + 1]));
-            self.steps[i] = seen_from_near(&self.links[i].arm, pair(next));
+            let next = times(&self.follows[i], &parts(self.steps[i + 1]));
+            self.steps[i] = seen_from_near(&self.resists[i].arm, pair(next));
         }
         for link in &mut self.links {
             link.pull = Wrench::zero();
@@ -430,7 +474,7 @@ impl<R: Real> Nodal<R> {
     /// The wrench that acts on a node, about it; at a held node the opposite of the reaction.
     #[inline(always)]
     fn imbalance(&self, node: usize) -> Wrench<Vec3<R>> {
-        between_links(self.loads[node], &self.links, node, |link| link.carried)
+        imbalance(&self.loads, &self.links, node)
     }
 
     /// What acts on a node when the elements have taken up their slack: the right-hand side of the system.
@@ -442,25 +486,54 @@ impl<R: Real> Nodal<R> {
 
 #[inline(always)]
 fn acting<R: Real>(loads: &[Wrench<Vec3<R>>], links: &[Link<R>], node: usize) -> Wrench<Vec3<R>> {
-    let imbalance = between_links(loads[node], links, node, |link| link.carried);
-    between_links(imbalance, links, node, |link| link.pull)
+    with_elements(imbalance(loads, links, node), links, node, |link| link.pull)
+}
+
+#[inline(always)]
+fn imbalance<R: Real>(loads: &[Wrench<Vec3<R>>], links: &[Link<R>], node: usize) -> Wrench<Vec3<R>> {
+    with_elements(loads[node], links, node, |link| link.carried)
 }
 
 /// What the element after a node exerts on it beside a wrench, and the one before.
 #[inline(always)]
-fn between_links<R: Real>(
+fn with_elements<R: Real>(
     mut wrench: Wrench<Vec3<R>>,
     links: &[Link<R>],
     node: usize,
-    exerted: impl Fn(&Link<R>) -> Wrench<Vec3<R>>,
+    what: impl Fn(&Link<R>) -> Wrench<Vec3<R>>,
 ) -> Wrench<Vec3<R>> {
-    if let Some(link) = links.get(node) {
-        wrench += exerted(link).wrench_from(link.arm);
+    if let Some(after) = links.get(node) {
+        wrench += what(after).wrench_from(after.arm);
     }
     if node > 0 {
-        wrench -= exerted(&links[node - 1]);
+        wrench -= what(&links[node - 1]);
     }
     wrench
+}
+
+/// By how much the nodes of a rod, or of several side by side, are out of balance, at most, over the largest wrench carried where that is above one.
+struct Imbalance<'a, R> {
+    system: &'a Nodal<R>,
+}
+
+impl<R: Real> Kernel for Imbalance<'_, R> {
+    type Output = R;
+
+    #[inline(always)]
+    fn run(self) -> R {
+        let Self { system } = self;
+        let (mut carried, mut imbalance) = (R::one(), R::zero());
+        for link in &system.links {
+            carried = larger(carried, largest(&parts(link.carried)));
+        }
+        let mut holds = system.holds.iter().peekable();
+        for node in 0..system.loads.len() {
+            let hold = holds.next_if(|hold| hold.node == node);
+            let out = out_of_balance(system.imbalance(node), hold);
+            imbalance = larger(imbalance, largest(&parts(out)));
+        }
+        imbalance / carried
+    }
 }
 
 impl<R: Real> Hold<R> {

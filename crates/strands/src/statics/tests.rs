@@ -1,7 +1,7 @@
 use super::*;
 use crate::coupling::{Grip, VirtualCoupling};
 use crate::load::{DistributedLoad, Frame, NodalLoads, PointLoad};
-use crate::math::{Pose, Quat, SimdLevel, Wrench};
+use crate::math::{Mat3, Pose, Quat, SimdLevel, Wrench};
 use crate::rod::{
     Law, Material, Mesh, Order, Profile, RestShape, Rod, RodDescription, Section, Station, Stiffness,
 };
@@ -558,6 +558,66 @@ fn a_tolerance_is_met_with_fewer_elements_than_an_even_mesh_needs() {
             assert!(error <= tolerance, "{order:?} {tolerance:e}: {error:e} with {n}");
             assert!(error <= even, "{order:?} {tolerance:e}: an even mesh does better, {even:e}");
         }
+    }
+}
+
+/// A rod that moves and is not in balance, seen as it is and turned as a whole with all that acts on it: what the slopes of the former, kept, give for
+/// the latter is what new ones do.
+#[test]
+fn slopes_that_are_kept_turn_with_the_rod() {
+    let problem = Problem::cantilever(rod(Kinematics::Cosserat, curved(), 40, Order::Second));
+    let points = problem.rod.diagonal_points().unwrap();
+    let loads = NodalLoads::none(&problem.rod).with_gravity(&problem.rod, Vec3::new(8.0, -20.0, 5.0));
+    let mut workspace = Workspace::default();
+    solve(&Problem { loads, ..problem.clone() }, &Settings::default(), None, &mut workspace).unwrap();
+    let state = workspace.record;
+    let turn = Quat::from_rotation_vector(Vec3::new(0.4, -0.7, 0.2)).to_matrix();
+    let turned = Record {
+        poses: state
+            .poses
+            .iter()
+            .map(|pose| Pose { rotation: turn * pose.rotation, position: turn * pose.position })
+            .collect(),
+        ..state.clone()
+    };
+    let inertial = |turn: Mat3| -> Vec<Inertial> {
+        let of = |i: usize| Inertial {
+            exerts: Wrench::new(Vec3::new(0.1, 0.02 * i as f64, -0.3), Vec3::new(-0.2, 0.4, 0.01 * i as f64))
+                .turned_by(&turn),
+            by_turn: turn * Mat3::diagonal(Vec3::new(-2.0, -1.0, -3.0)) * turn.transpose(),
+            by_shift: Mat3::diagonal(Vec3::new(-500.0, -500.0, -500.0)),
+        };
+        (0..state.poses.len()).map(of).collect()
+    };
+    let level = SimdLevel::detect();
+    let look = |nodal: &mut Nodal, slopes: Slopes, turn: Mat3, state: &Record| {
+        let inertial = inertial(turn);
+        let motion = Motion { points, inertial: &inertial };
+        nodal.linearise_moving(&problem, level, (0.0, slopes), &motion, state)
+    };
+    let mut kept = Nodal::default();
+    look(&mut kept, Slopes::Anew, Mat3::IDENTITY, &state);
+    kept.solve(level, 0.0).unwrap();
+    let before = look(&mut kept, Slopes::Kept, turn, &turned);
+    kept.solve_again(level, &turned);
+    let mut anew = Nodal::default();
+    let same = look(&mut anew, Slopes::Anew, turn, &turned);
+    anew.solve(level, 0.0).unwrap();
+    assert_eq!(before.residual(), same.residual());
+    let after = |nodal: &Nodal| {
+        let mut state = turned.clone();
+        nodal.take(&problem, level, 1.0, &mut state);
+        state
+    };
+    let (kept, anew) = (after(&kept), after(&anew));
+    let moved = turned.poses.iter().zip(&anew.poses).map(|(from, to)| from.between(to).log().max_abs());
+    let moved = moved.fold(0.0, f64::max);
+    assert!(moved > 1e-3, "{moved:e}");
+    for (kept, anew) in kept.poses.iter().zip(&anew.poses) {
+        assert!(kept.between(anew).log().max_abs() < 1e-11 * moved, "{kept:?} {anew:?}");
+    }
+    for (kept, anew) in kept.wrenches.iter().zip(&anew.wrenches) {
+        assert!((*kept - *anew).max_abs() < 1e-9 * anew.max_abs(), "{kept:?} {anew:?}");
     }
 }
 

@@ -1,10 +1,10 @@
 //! The kernel that linearises elements of order 2 with a diagonal law, several side by side.
 
 use super::super::march::Record;
-use super::{Axes, Link};
+use super::{Axes, Link, Resists, parts};
 use crate::element::{self, DiagonalPoint, Resistance, diagonal_resistance};
 use crate::math::{
-    Kernel, Lanes, Mat3, Pose, SimdLevel, Vec3, Vec6, Wide, Wrench, dispatch, larger, largest,
+    Kernel, Lanes, Mat3, Pose, Real, SimdLevel, Vec3, Vec6, Wrench, dispatch, larger, largest, logs,
 };
 use crate::rod::Rod;
 
@@ -39,10 +39,8 @@ impl Elements {
             rest.put(i, axes.shift(point.rest));
             wrench.put(i, axes.wrench(state.wrenches[e]));
             let (a, b) = (&state.poses[e], &state.poses[e + 1]);
-            for k in 0..3 {
-                near.cols[k].put(i, a.rotation.cols[k]);
-                turned.cols[k].put(i, b.rotation.cols[k]);
-            }
+            near.put(i, &a.rotation);
+            turned.put(i, &b.rotation);
             // Of the places as they are: round-off in others would be seen through the stiffness against stretching.
             arm.put(i, (b.position - a.position) * (1.0 / axes.length));
         }
@@ -81,24 +79,29 @@ impl Kernel for TakeStrains<'_> {
     }
 }
 
-/// Linearises the elements of a rod of order 2 with a diagonal law, several side by side.
-pub(super) struct Linearise<'a> {
+/// Looks at the elements of a rod of order 2 with a diagonal law, several side by side: what they exert, and with slopes how that changes with
+/// their nodes. Gives the largest slack.
+pub(super) struct Look<'a, const SLOPES: bool> {
     pub rod: &'a Rod,
     pub points: &'a [DiagonalPoint],
     pub axes: &'a Axes,
     pub lent: f64,
-    pub state: &'a mut Record,
+    pub state: &'a Record,
     pub links: &'a mut Vec<Link<f64>>,
+    pub resists: &'a mut Vec<Resists<f64>>,
 }
 
-impl Kernel for Linearise<'_> {
+impl<const SLOPES: bool> Kernel for Look<'_, SLOPES> {
     type Output = f64;
 
     #[inline(always)]
     fn run(self) -> f64 {
-        let Self { rod, points, axes, lent, state, links } = self;
+        let Self { rod, points, axes, lent, state, links, resists } = self;
         let n = rod.elements();
         let mut worst = 0.0;
+        links.resize(n, Link { arm: Vec3::ZERO, carried: Wrench::ZERO, pull: Wrench::ZERO });
+        resists.resize(n, Resists { arm: Vec3::ZERO, stiffness: [[0.0; 6]; 6] });
+        let mut largest_slack = Lanes::<BATCH>::splat(0.0);
         for first in (0..n).step_by(BATCH) {
             let Elements { compliance, rest, wrench, x, turned, arm } =
                 Elements::gather(rod, points, axes, state, first);
@@ -106,40 +109,25 @@ impl Kernel for Linearise<'_> {
             let Resistance { stiffness, pull, slack } =
                 diagonal_resistance(compliance, rest, share, x, wrench, &turned);
             let carried = wrench.turned_by(&turned);
+            largest_slack = larger(largest_slack, largest(&parts(slack)));
             for i in 0..BATCH.min(n - first) {
-                let mut rows = [[0.0; 6]; 6];
-                for r in 0..6 {
-                    for c in 0..6 {
-                        let column = &stiffness[r / 3][c / 3].cols[c % 3];
-                        rows[r][c] = [&column.x, &column.y, &column.z][r % 3].0[i];
+                let arm = arm.lane(i);
+                links[first + i] = Link { arm, carried: carried.lane(i), pull: pull.lane(i) };
+                if SLOPES {
+                    let to = &mut resists[first + i];
+                    to.arm = arm;
+                    for r in 0..6 {
+                        for c in 0..6 {
+                            let column = &stiffness[r / 3][c / 3].cols[c % 3];
+                            to.stiffness[r][c] = [&column.x, &column.y, &column.z][r % 3].0[i];
+                        }
                     }
                 }
-                worst = larger(worst, largest(&slack.lane(i).to_array()));
-                let (arm, carried, pull) = (arm.lane(i), carried.lane(i), pull.lane(i));
-                links.push(Link { arm, stiffness: rows, carried, pull });
             }
         }
-        worst
-    }
-}
-
-/// The logarithms of poses, in lanes.
-#[inline(always)]
-pub(crate) fn logs<R: Wide>(poses: &Pose<Vec3<R>>) -> Vec6<Vec3<R>> {
-    let mut logs = poses.log_of_small_turn();
-    if !R::all(logs.angular.x.at_most(f64::INFINITY)) {
-        log_large_turns(poses, &mut logs);
-    }
-    logs
-}
-
-/// Where a turn is too large for the short way.
-#[cold]
-#[inline(never)]
-fn log_large_turns<R: Wide>(poses: &Pose<Vec3<R>>, logs: &mut Vec6<Vec3<R>>) {
-    for lane in 0..R::LANES {
-        if logs.angular.x.number(lane).is_nan() {
-            logs.put(lane, poses.lane(lane).log());
+        for i in 0..BATCH {
+            worst = larger(worst, largest_slack.0[i]);
         }
+        worst
     }
 }

@@ -3,8 +3,8 @@
 //! Written for one rod or several side by side.
 
 use super::second_variation::TURNING;
-use super::{Hold, Link, Nodal, acting};
-use crate::math::{Kernel, Real, Register, Vec3, Vec6, Wrench};
+use super::{Hold, Nodal, Resists, acting, imbalance};
+use crate::math::{Kernel, Mat3, Real, Register, Vec3, Vec6, Wrench};
 
 /// A pivot below this part of its block's diagonal is none.
 pub(super) const SMALLEST_PIVOT: f64 = 1e-15;
@@ -40,7 +40,11 @@ impl<R: Register> Kernel for Eliminate<'_, R> {
         let n = nodal.links.len();
         nodal.follows.resize(n + 1, [[R::zero(); 8]; 6]);
         nodal.steps.resize(n + 1, Vec6::zero());
-        let Nodal { links, loads, load_slopes, holds, follows, steps, others, other_steps, .. } = nodal;
+        if R::LANES == 1 {
+            nodal.pivots.resize(n + 1, [[R::zero(); 6]; 6]);
+        }
+        let Nodal { links, resists, loads, load_slopes, inertial_slopes, holds, .. } = nodal;
+        let Nodal { follows, pivots, steps, others, other_steps, .. } = nodal;
         let columns = if others.is_empty() { OTHER } else { OTHER + 1 };
         let mut inertia = Inertia { negative: R::zero(), vanished: R::zero() };
         // What the nodes before take from the pivot, and add to what acts. One rod starts from the former, negated; several subtract it. So too one
@@ -62,7 +66,10 @@ impl<R: Register> Kernel for Eliminate<'_, R> {
             }
             subtract_dead_moment_slope(&mut pivot, loads[i].linear);
             if i > 0 {
-                add(&mut pivot, &on_far(&links[i - 1]));
+                add(&mut pivot, &on_far(&resists[i - 1].stiffness, links[i - 1].carried));
+            }
+            if let Some(slopes) = inertial_slopes.get(i) {
+                subtract_inertial_slopes(&mut pivot, slopes);
             }
             if R::LANES > 1 {
                 subtract(&mut pivot, &earlier);
@@ -83,11 +90,12 @@ impl<R: Register> Kernel for Eliminate<'_, R> {
                     right[r][OTHER] = other[r] + earlier[r][OTHER];
                 }
             }
-            match links.get(i) {
+            let after = resists.get(i);
+            match after {
                 Some(after) => {
                     see_from(&after.arm, &mut pivot, right);
                     add(&mut pivot, &after.stiffness);
-                    let upper = on_far(after);
+                    let upper = on_far(&after.stiffness, links[i].carried);
                     for r in 0..6 {
                         right[r][..6].copy_from_slice(&upper[r]);
                     }
@@ -102,44 +110,87 @@ impl<R: Register> Kernel for Eliminate<'_, R> {
             if let Some(hold) = hold {
                 next_hold += 1;
                 // Few nodes are held: out of the way of the others' registers.
-                R::run(Restrict { hold, after: links.get(i), pivot: &mut pivot, right });
+                R::run(Restrict { hold, after, pivot: &mut pivot, right });
             }
             reduce(&mut pivot, right, columns, &mut inertia);
             if let Some(hold) = hold {
-                R::run(Expand { hold, after: links.get(i), follow: right });
+                R::run(Expand { hold, after, follow: right });
             }
-            if let Some(after) = links.get(i) {
+            if let Some(after) = after {
                 to_next(&after.stiffness, right, columns, &mut earlier);
             }
             if R::LANES == 1 {
-                follows[i] = local;
+                (follows[i], pivots[i]) = (local, pivot);
             }
         }
-        put_together(links, follows, ACTING, steps);
+        put_together(resists, follows, ACTING, steps);
         other_steps.clear();
         if !others.is_empty() {
             other_steps.resize(n + 1, Vec6::zero());
-            put_together(links, follows, OTHER, other_steps);
+            put_together(resists, follows, OTHER, other_steps);
         }
         inertia
+    }
+}
+
+/// Solves for what acts now with the factors that one rod was last [eliminated](Eliminate) to, as if all had turned with its nodes since: then what is stiff
+/// does not get in the way of what is not.
+pub(super) struct Substitute<'a> {
+    pub nodal: &'a mut Nodal,
+}
+
+impl Kernel for Substitute<'_> {
+    type Output = ();
+
+    #[inline(always)]
+    fn run(self) {
+        let Nodal { links, resists, loads, held, follows, pivots, since, steps, .. } = self.nodal;
+        let (mut earlier, mut next_hold) = (Vec6::ZERO, 0);
+        for i in 0..follows.len() {
+            let after = resists.get(i);
+            let mut acts = imbalance(loads, links, i).turned_back_by(&since[i]) + earlier;
+            let mut pull = Wrench::ZERO;
+            if let Some(after) = after {
+                acts.angular -= after.arm.cross(acts.linear);
+                pull = links[i].pull.turned_back_by(&since[i + 1]);
+                acts += pull;
+            }
+            let mut x = parts(acts);
+            if let Some(hold) = held.get(next_hold).filter(|hold| hold.node == i) {
+                next_hold += 1;
+                let free = hold.free_seen_from(after);
+                x = times(&transposed(&free), &x);
+                substitute(&pivots[i], &mut x);
+                x = times(&free, &x);
+            } else {
+                substitute(&pivots[i], &mut x);
+            }
+            for (row, x) in follows[i].iter_mut().zip(x) {
+                row[ACTING] = x;
+            }
+            if let Some(after) = after {
+                earlier = pair(times(&after.stiffness, &x)) - pull;
+            }
+        }
+        put_together(resists, follows, ACTING, steps);
     }
 }
 
 /// Each node's step from that of the one after it.
 #[inline(always)]
 fn put_together<R: Real>(
-    links: &[Link<R>],
+    resists: &[Resists<R>],
     follows: &[Block<R>],
     column: usize,
     steps: &mut [Vec6<Vec3<R>>],
 ) {
     let mut x = [R::zero(); 6];
     for i in (0..follows.len()).rev() {
-        let mut next = answer(&follows[i], &x);
+        let mut next = times(&follows[i], &x);
         for (next, row) in next.iter_mut().zip(&follows[i]) {
             *next += row[column];
         }
-        steps[i] = match links.get(i) {
+        steps[i] = match resists.get(i) {
             Some(after) => seen_from_near(&after.arm, pair(next)),
             None => pair(next),
         };
@@ -147,15 +198,14 @@ fn put_together<R: Real>(
     }
 }
 
-/// How a node, seen from the place of the one after it, answers to that one's motion.
+/// The product of the first six columns of a block with numbers.
 #[inline(always)]
-pub(super) fn answer<R: Real>(follow: &Block<R>, x: &[R; 6]) -> [R; 6] {
-    let mut next = [R::zero(); 6];
-    for (next, row) in next.iter_mut().zip(follow) {
-        *next = ((row[0] * x[0] + row[1] * x[1]) + (row[2] * x[2] + row[3] * x[3]))
-            + (row[4] * x[4] + row[5] * x[5]);
+pub(super) fn times<R: Real, const COLUMNS: usize>(a: &[[R; COLUMNS]; 6], x: &[R; 6]) -> [R; 6] {
+    let mut out = [R::zero(); 6];
+    for (out, a) in out.iter_mut().zip(a) {
+        *out = (a[0] * x[0] + a[1] * x[1]) + (a[2] * x[2] + a[3] * x[3]) + (a[4] * x[4] + a[5] * x[5]);
     }
-    next
+    out
 }
 
 /// A variation seen from a place `arm` further on, seen from here.
@@ -242,10 +292,26 @@ pub(super) fn subtract_dead_moment_slope<R: Real>(from: &mut Square<R>, force: V
 
 /// `F + A`: how what the element exerts on its far node changes with that node.
 #[inline(always)]
-pub(super) fn on_far<R: Real>(link: &Link<R>) -> Square<R> {
-    let mut block = link.stiffness;
-    add_coadjoint(&mut block, link.carried);
+pub(super) fn on_far<R: Real>(stiffness: &Square<R>, carried: Wrench<Vec3<R>>) -> Square<R> {
+    let mut block = *stiffness;
+    add_coadjoint(&mut block, carried);
     block
+}
+
+#[inline(always)]
+pub(super) fn subtract_inertial_slopes<R: Real>(
+    from: &mut Square<R>,
+    [by_turn, by_shift]: &[Mat3<Vec3<R>>; 2],
+) {
+    for c in 0..3 {
+        let (turn, shift) = (by_turn.cols[c], by_shift.cols[c]);
+        from[0][c] -= turn.x;
+        from[1][c] -= turn.y;
+        from[2][c] -= turn.z;
+        from[3][3 + c] -= shift.x;
+        from[4][3 + c] -= shift.y;
+        from[5][3 + c] -= shift.z;
+    }
 }
 
 /// Adds `ad*(η) w` as a matrix of `η`, as [`coadjoint_by_strain`](crate::element::coadjoint_by_strain).
@@ -277,7 +343,7 @@ fn add_drag<R: Real>(pivot: &mut Square<R>, drag: R) {
 }
 
 /// Solves the six equations for as many right-hand sides, in place, without interchange: the signs of the pivots are wanted, and where all are
-/// positive it is not needed.
+/// positive it is not needed. Leaves the factors: by what of a row before each row is lessened, the rest of the rows, and the pivots' reciprocals.
 #[inline(always)]
 fn reduce<R: Real>(left: &mut Square<R>, right: &mut Block<R>, columns: usize, inertia: &mut Inertia<R>) {
     let mut size = R::zero();
@@ -302,10 +368,10 @@ fn reduce<R: Real>(left: &mut Square<R>, right: &mut Block<R>, columns: usize, i
                 for c in 0..8 {
                     right[i][c] -= right[k][c] * factor;
                 }
-            } else {
-                left[i][k] = factor;
             }
+            left[i][k] = factor;
         }
+        left[k][k] = scales[k];
     }
     if R::LANES == 1 {
         for k in (0..6).rev() {
@@ -323,19 +389,25 @@ fn reduce<R: Real>(left: &mut Square<R>, right: &mut Block<R>, columns: usize, i
     // A number alone takes a row to a register; where each has one, a column stays in six of them.
     for c in 0..columns {
         let mut x = column(right, c);
-        for k in 0..6 {
-            for i in k + 1..6 {
-                x[i] -= x[k] * left[i][k];
-            }
-        }
-        for k in (0..6).rev() {
-            x[k] = x[k] * scales[k];
-            for i in 0..k {
-                x[i] -= x[k] * left[i][k];
-            }
-        }
+        substitute(left, &mut x);
         for k in 0..6 {
             right[k][c] = x[k];
+        }
+    }
+}
+
+/// Solves six equations by the factors that [`reduce`] leaves.
+#[inline(always)]
+fn substitute<R: Real>(factors: &Square<R>, x: &mut [R; 6]) {
+    for k in 0..6 {
+        for i in k + 1..6 {
+            x[i] -= x[k] * factors[i][k];
+        }
+    }
+    for k in (0..6).rev() {
+        x[k] = x[k] * factors[k][k];
+        for i in 0..k {
+            x[i] -= x[k] * factors[i][k];
         }
     }
 }
@@ -416,7 +488,7 @@ pub(super) fn transposed<R: Real>(a: &Square<R>) -> Square<R> {
 /// Turns a held node's equations into such for its free displacements; those that are fixed are zero.
 struct Restrict<'a, R> {
     hold: &'a Hold<R>,
-    after: Option<&'a Link<R>>,
+    after: Option<&'a Resists<R>>,
     pivot: &'a mut Square<R>,
     right: &'a mut Block<R>,
 }
@@ -443,7 +515,7 @@ impl<R: Real> Kernel for Restrict<'_, R> {
 /// From the free displacements of a held node to the variation of its frame.
 struct Expand<'a, R> {
     hold: &'a Hold<R>,
-    after: Option<&'a Link<R>>,
+    after: Option<&'a Resists<R>>,
     follow: &'a mut Block<R>,
 }
 
@@ -459,9 +531,9 @@ impl<R: Real> Kernel for Expand<'_, R> {
 impl<R: Real> Hold<R> {
     /// The free displacements, seen from the far end of the element after the node.
     #[inline(always)]
-    fn free_seen_from(&self, after: Option<&Link<R>>) -> Square<R> {
+    fn free_seen_from(&self, after: Option<&Resists<R>>) -> Square<R> {
         let mut free = self.free;
-        if let Some(Link { arm, .. }) = after {
+        if let Some(Resists { arm, .. }) = after {
             for c in 0..6 {
                 let [a, b, d] = crossed(arm, free[0][c], free[1][c], free[2][c]);
                 free[3][c] -= a;

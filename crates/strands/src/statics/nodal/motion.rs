@@ -2,9 +2,9 @@
 
 use super::super::march::Record;
 use super::super::problem::Problem;
-use super::{Axes, Distance, Nodal, force_slope};
+use super::{Axes, Distance, Nodal, Slopes};
 use crate::element::DiagonalPoint;
-use crate::math::{Mat3, Mat6, SimdLevel, Wrench};
+use crate::math::{Mat3, SimdLevel, Wrench};
 
 /// What motion adds to a rod at rest.
 pub(crate) struct Motion<'a> {
@@ -26,16 +26,17 @@ pub(crate) struct Inertial {
 }
 
 impl Nodal {
-    /// The same as [`Nodal::linearise`] of a rod that moves, about its state at some time.
+    /// The same as [`Nodal::linearise`] of a rod that moves, about its state at some time, or where the slopes are kept a look at how far it is
+    /// from what must hold.
     pub fn linearise_moving(
         &mut self,
         problem: &Problem,
         level: SimdLevel,
-        lent: f64,
+        lends: (f64, Slopes),
         motion: &Motion,
-        state: &mut Record,
-    ) -> Option<Distance> {
-        self.linearise_in(Axes::new(problem, state), problem, level, lent, motion, state)
+        state: &Record,
+    ) -> Distance {
+        self.linearise_in(Axes::new(problem, state), problem, level, lends, motion, state)
     }
 
     /// The same in axes that several rods share.
@@ -44,20 +45,28 @@ impl Nodal {
         axes: Axes,
         problem: &Problem,
         level: SimdLevel,
-        lent: f64,
+        (lent, slopes): (f64, Slopes),
         motion: &Motion,
-        state: &mut Record,
-    ) -> Option<Distance> {
+        state: &Record,
+    ) -> Distance {
         self.axes = axes;
-        self.linearise_in_its_axes(problem, level, lent, Some(motion), state)
-    }
-
-    /// Adds what the change of its momentum exerts on each node.
-    pub(super) fn move_with(&mut self, inertial: &[Inertial], axes: &Axes) {
-        for (i, node) in inertial.iter().enumerate() {
-            self.loads[i] += axes.wrench(node.exerts);
-            self.load_slopes.push((i, node.slope(axes).to_rows()));
+        let slack = self.look_at_elements(&problem.rod, motion.points, level, (lent, slopes), state);
+        self.load(problem, state);
+        for (load, node) in self.loads.iter_mut().zip(motion.inertial) {
+            *load += axes.wrench(node.exerts);
         }
+        if slopes == Slopes::Anew {
+            self.inertial_slopes.clear();
+            self.inertial_slopes.extend(motion.inertial.iter().map(|node| node.slopes(&axes)));
+            self.since.clear();
+            self.turned.clear();
+            self.turned.extend(state.poses.iter().map(|pose| pose.rotation));
+        }
+        let distance = self.measure(problem, level, slack, state);
+        if slopes == Slopes::Anew {
+            self.held.clone_from(&self.holds);
+        }
+        distance
     }
 
     /// What acts on a node that is out of balance, in the world about itself: what its support bears, with the opposite sign, or what is left of a
@@ -68,9 +77,9 @@ impl Nodal {
 }
 
 impl Inertial {
-    /// How what is exerted changes with the frame, in some axes.
+    /// How what is exerted changes with the frame, in some axes: the moment with a turn, the force with a shift.
     #[inline]
-    pub(super) fn slope(&self, axes: &Axes) -> Mat6 {
-        force_slope(self.by_turn.scaled(1.0 / axes.moment), self.by_shift.scaled(axes.length / axes.force))
+    pub(super) fn slopes(&self, axes: &Axes) -> [Mat3; 2] {
+        [self.by_turn.scaled(1.0 / axes.moment), self.by_shift.scaled(axes.length / axes.force)]
     }
 }

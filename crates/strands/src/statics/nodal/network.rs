@@ -7,7 +7,7 @@
 
 use super::elimination::{
     SMALLEST_PIVOT, Square, add, block_from, on_far, pair, parts, product, seen_from_near, subtract,
-    subtract_dead_moment_slope, transposed,
+    subtract_dead_moment_slope, subtract_inertial_slopes, transposed,
 };
 use super::{Axes, Inertial, Nodal, grip_acts};
 use crate::assembly::{Assembly, Body, Member, Ties};
@@ -233,16 +233,15 @@ impl Network {
     pub fn add_body(&mut self, body: &Body, pose: &Pose, inertial: &Inertial, unsure: f64) {
         let axes = self.axes;
         let mut load = axes.wrench(body.load + inertial.exerts);
-        let mut slope = inertial.slope(&axes);
+        let mut resists = NONE;
         if let Some(grip) = body.support.as_ref().and_then(|support| support.grip.as_ref()) {
             let (wrench, by_frame) = grip_acts(grip, pose, &axes);
             load += wrench;
-            slope = slope.add(&by_frame);
+            subtract(&mut resists, &by_frame.to_rows());
         }
         let place = axes.at(pose.position);
-        let mut resists = NONE;
         subtract_dead_moment_slope(&mut resists, load.linear);
-        subtract(&mut resists, &slope.to_rows());
+        subtract_inertial_slopes(&mut resists, &inertial.slopes(&axes));
         let resists = block_from(&-place, &resists);
         self.free.push(FreeFrame {
             place,
@@ -292,17 +291,25 @@ impl Network {
             let mut block = NONE;
             subtract_dead_moment_slope(&mut block, nodal.loads[node].linear);
             if node > 0 {
-                add(&mut block, &on_far(&nodal.links[node - 1]));
+                add(&mut block, &on_far(&nodal.resists[node - 1].stiffness, nodal.links[node - 1].carried));
             }
             while let Some((_, slope)) = slopes.next_if(|(at, _)| *at == node) {
                 subtract(&mut block, slope);
             }
+            if let Some(slopes) = nodal.inertial_slopes.get(node) {
+                subtract_inertial_slopes(&mut block, slopes);
+            }
             let mut block = block_from(&-nodal.places[node], &block);
             if let Some(after) = nodal.links.get(node) {
                 let to_origin = -nodal.places[node + 1];
-                let near = block_from(&to_origin, &after.stiffness);
+                let stiffness = &nodal.resists[node].stiffness;
+                let near = block_from(&to_origin, stiffness);
                 add(&mut block, &near);
-                self.add_block(frame, frame + 1, &negative(&block_from(&to_origin, &on_far(after))));
+                self.add_block(
+                    frame,
+                    frame + 1,
+                    &negative(&block_from(&to_origin, &on_far(stiffness, after.carried))),
+                );
                 self.add_block(frame + 1, frame, &negative(&near));
             }
             self.add_block(frame, frame, &block);

@@ -9,9 +9,9 @@ use super::super::boundary::{displacements, displacements_slope, meet};
 use super::super::march::Record;
 use super::super::problem::{Problem, Support};
 use super::elimination::{Eliminate, Inertia, Square, add_coadjoint, parts, subtract_dead_moment_slope};
-use super::{Axes, Hold, Link, Nodal, logs, out_of_balance};
+use super::{Axes, Hold, Imbalance, Link, Nodal, Resists};
 use crate::element::{Resistance, diagonal_resistance};
-use crate::math::{Kernel, Mat3, Pose, Real, Register, Vec3, Vec6, Wide, Wrench, larger, largest};
+use crate::math::{Kernel, Mat3, Pose, Real, Register, Vec3, Vec6, Wide, Wrench, larger, largest, logs};
 
 /// As many rods as there are lanes, their states, and their linear systems. All in each rod's own axes, as those of one rod.
 #[derive(Clone, Debug)]
@@ -164,7 +164,8 @@ impl<R: Register> SideBySide<R> {
     pub fn linearise(&mut self, problems: &[Problem], lent: R) -> R {
         let slack = R::run(LineariseAll { side: self, lent });
         self.hold(problems);
-        R::run(Measure { system: &self.system, slack })
+        let imbalance = R::run(Imbalance { system: &self.system });
+        larger(imbalance, slack * R::splat(self.wrenches.len() as f64))
     }
 
     /// The free displacements of the nodes that are held, rod by rod.
@@ -285,15 +286,10 @@ impl<R: Wide> Kernel for LineariseAll<'_, R> {
         let SideBySide { elements, dead, follower, any_follower, poses, wrenches, system, .. } = side;
         let zero = R::zero();
         let mut worst = zero;
-        system.links.resize(
-            wrenches.len(),
-            Link {
-                arm: Vec3::new(zero, zero, zero),
-                stiffness: [[zero; 6]; 6],
-                carried: Wrench::zero(),
-                pull: Wrench::zero(),
-            },
-        );
+        let none = Link { arm: Vec3::zero(), carried: Wrench::zero(), pull: Wrench::zero() };
+        system.links.resize(wrenches.len(), none);
+        let none = Resists { arm: Vec3::zero(), stiffness: [[zero; 6]; 6] };
+        system.resists.resize(wrenches.len(), none);
         for (e, fixed) in elements.iter().enumerate() {
             let x = logs(&poses[e].between(&poses[e + 1]));
             let turned = poses[e + 1].rotation;
@@ -301,14 +297,15 @@ impl<R: Wide> Kernel for LineariseAll<'_, R> {
             let Resistance { stiffness, pull, slack } =
                 diagonal_resistance(fixed.compliance, fixed.rest, lent * fixed.part, x, wrench, &turned);
             worst = larger(worst, largest(&parts(slack)));
-            let link = &mut system.links[e];
-            link.arm = poses[e + 1].position - poses[e].position;
-            put_block(&mut link.stiffness, 0, 0, &stiffness[0][0]);
-            put_block(&mut link.stiffness, 0, 3, &stiffness[0][1]);
-            put_block(&mut link.stiffness, 3, 0, &stiffness[1][0]);
-            put_block(&mut link.stiffness, 3, 3, &stiffness[1][1]);
-            link.carried = wrench.turned_by(&turned);
-            link.pull = pull;
+            let arm = poses[e + 1].position - poses[e].position;
+            system.links[e] = Link { arm, carried: wrench.turned_by(&turned), pull };
+            let to = &mut system.resists[e];
+            to.arm = arm;
+            let rows = &mut to.stiffness;
+            put_block(rows, 0, 0, &stiffness[0][0]);
+            put_block(rows, 0, 3, &stiffness[0][1]);
+            put_block(rows, 3, 0, &stiffness[1][0]);
+            put_block(rows, 3, 3, &stiffness[1][1]);
         }
         system.loads.clear();
         system.load_slopes.clear();
@@ -336,32 +333,6 @@ fn put_block<R: Real>(to: &mut Square<R>, row: usize, column: usize, block: &Mat
         to[row][column + c] = v.x;
         to[row + 1][column + c] = v.y;
         to[row + 2][column + c] = v.z;
-    }
-}
-
-/// Ends [`SideBySide::linearise`]: how far all are from equilibrium.
-struct Measure<'a, R> {
-    system: &'a Nodal<R>,
-    slack: R,
-}
-
-impl<R: Real> Kernel for Measure<'_, R> {
-    type Output = R;
-
-    #[inline(always)]
-    fn run(self) -> R {
-        let Self { system, slack } = self;
-        let (mut carried, mut imbalance) = (R::one(), R::zero());
-        for link in &system.links {
-            carried = larger(carried, largest(&parts(link.carried)));
-        }
-        let mut holds = system.holds.iter().peekable();
-        for node in 0..system.loads.len() {
-            let hold = holds.next_if(|hold| hold.node == node);
-            let out = out_of_balance(system.imbalance(node), hold);
-            imbalance = larger(imbalance, largest(&parts(out)));
-        }
-        larger(imbalance / carried, slack * R::splat(system.links.len() as f64))
     }
 }
 
@@ -421,7 +392,8 @@ impl<R: Real> Kernel for TakeAll<'_, R> {
         let stays = R::select(moves.at_most(0.5), zero, part).at_most(0.0);
         for e in 0..wrenches.len() {
             let turned = &poses[e + 1].rotation;
-            let change = system.links[e].change(system.steps[e], system.steps[e + 1], part, turned);
+            let change = system.resists[e].change(system.steps[e], system.steps[e + 1]);
+            let change = ((change + system.links[e].pull) * part).turned_back_by(turned);
             wrenches[e] += unless(stays, change);
         }
         for i in 0..poses.len() {
