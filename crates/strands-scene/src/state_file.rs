@@ -5,7 +5,7 @@ use strands::dynamics::{Means, Past, Power, State};
 use strands::math::{Mat3, Pose, Vec3, Vec6};
 use thiserror::Error;
 
-/// In the first format angular momenta were about a place of all.
+/// The format that is written and read. In the first one angular momenta were about a place of all.
 const FORMAT: u32 = 2;
 
 /// What a state's file is not.

@@ -115,6 +115,7 @@ impl Plan {
         };
         let seconds = options.seconds.or(dynamics.duration).unwrap_or(DURATION);
         let seconds = positive("--seconds", seconds)?;
+        let of_seconds = if options.seconds.is_some() { "--seconds" } else { "dynamics.duration" };
         let asked = options.every.or(dynamics.output_rate.map(|rate| 1.0 / rate));
         let every = positive("--every", asked.unwrap_or(1.0 / OUTPUT_RATE))?;
         if settings.local_error.is_some() {
@@ -123,7 +124,7 @@ impl Plan {
         let (step, shown) = (settings.time_step, |seconds: f64| engineering(seconds, "s"));
         if seconds < 0.5 * step {
             return Err(Failure::bad(format!(
-                "--seconds: {} are less than half a step of {}: nothing would move; give more, or a shorter `dynamics.time_step`",
+                "{of_seconds}: {} are less than half a step of {}: nothing would move; give more, or a shorter `dynamics.time_step`",
                 shown(seconds),
                 shown(step)
             )));

@@ -65,6 +65,10 @@ impl Model {
             integrator,
             time_step: written.time_step.unwrap_or(longest),
             local_error: written.tolerance,
+            // What is left over of a step is not to be taken for its error.
+            tolerance: written
+                .tolerance
+                .map_or(default.tolerance, |error| default.tolerance.min(1e-2 * error)),
             bounded: written.newton_iterations.is_some(),
             max_iterations: written.newton_iterations.unwrap_or(default.max_iterations),
             mass_damping: written.mass_damping.unwrap_or(default.mass_damping),

@@ -19,8 +19,8 @@ pub(super) fn at_coordinates(base: &Pose, q: Vec6) -> Pose {
 }
 
 /// Takes what backward differences of order 2 know of the coordinates by the frames at the beginning of the step before, and guesses their rates: with `c`
-/// the coordinates of those, the offsets are `−c/3`, and the rates at the end of a step of length `h` of the parabola through both with the velocities `v`
-/// between them `3 v + 2 c/h`.
+/// the coordinates of those, the offsets are `−c/3`, and the parabola through both, with the velocities `v` at the later, has the rates `3 v + 2 c/h` at
+/// the end of a step of length `h`.
 pub(super) struct LookBack<'a> {
     pub stage: &'a mut Stage,
     pub before: &'a [Pose],

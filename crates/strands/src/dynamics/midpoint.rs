@@ -15,7 +15,7 @@ use super::{Simulation, StepFailure, Taken, Work};
 use crate::element::DiagonalPoint;
 use crate::math::{Mat3, Pose, Quat, Vec3, Vec6, Wrench, so3_tangent, so3_tangent_inverse, tangent_inverse};
 use crate::rod::NodeInertia;
-use crate::statics::Inertial;
+use crate::statics::{Inertial, Slopes};
 use core::ops::Range;
 
 /// An element whose exponent changes by less than this part of what bends it has no third-order term beside round-off.
@@ -76,7 +76,7 @@ impl Stage {
                 by_shift: Mat3::IDENTITY.scaled(-mass * per_step * (4.0 * per_step + 2.0 * lost)),
             };
         }
-        self.take_drag(frames, poses, resistance);
+        self.take_drag(frames, poses, resistance, Slopes::Anew);
     }
 
     /// Takes into the elements' laws that the mean of their exponents before and after has the mean stress, and works as their energy grows.

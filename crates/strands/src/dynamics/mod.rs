@@ -44,7 +44,8 @@ pub struct Settings {
     /// allows; otherwise they are all alike.
     pub local_error: Option<f64>,
     /// The residual at which a stage is solved, as that of statics: forces and moments over `EI/L²` and `EI/L` or the largest carried, turns in rad and
-    /// shifts over the length. Where round-off of the frames leaves more, as in very short steps, that.
+    /// shifts over the length. Where round-off of the frames leaves more, as in very short steps, that. A stage's first guess must be a hundred times
+    /// better to be its solution.
     pub tolerance: f64,
     /// How many Newton iterations a stage may take.
     pub max_iterations: usize,
@@ -61,7 +62,7 @@ impl Default for Settings {
             integrator: Integrator::Bdf2,
             time_step: 1e-3,
             local_error: None,
-            tolerance: 1e-8,
+            tolerance: 1e-7,
             max_iterations: 20,
             bounded: false,
             mass_damping: 0.0,

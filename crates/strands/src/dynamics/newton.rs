@@ -211,22 +211,22 @@ impl Group {
         )
     }
 
-    /// Whether slopes can be kept: where the work is in them.
+    /// Whether slopes can be kept: of a rod alone, whose laws do not change with every iteration as the midpoint rule's.
     fn keeps_slopes(&self, stage: &Stage) -> bool {
         self.network.is_none() && !stage.middle
     }
 
-    /// Solves for a step, with slopes that were kept as they were solved with last; `None` where a pivot vanishes.
-    fn solve(&mut self, level: SimdLevel, slopes: Slopes) -> Option<usize> {
-        match &mut self.network {
-            None if slopes == Slopes::Kept => {
-                let RodSystem { nodal, record, .. } = &mut self.rods[0];
-                nodal.solve_again(level, record);
-                Some(0)
-            }
-            Some(network) => network.solve(level, self.rods.iter_mut().map(|system| &mut system.nodal)),
-            None => self.rods[0].nodal.solve(level, 0.0),
+    /// Solves for a step, with slopes that were kept as it was solved with them last. Whether no pivot vanishes.
+    fn solve(&mut self, level: SimdLevel, slopes: Slopes) -> bool {
+        if let Some(network) = &mut self.network {
+            return network.solve(level, self.rods.iter_mut().map(|system| &mut system.nodal)).is_some();
         }
+        let RodSystem { nodal, record, .. } = &mut self.rods[0];
+        if slopes == Slopes::Kept {
+            nodal.solve_again(level, record);
+            return true;
+        }
+        nodal.solve(level, 0.0).is_some()
     }
 
     /// Takes the step, but so little of it that no frame turns by more than a radian at once. Gives the step's size, the largest turn (rad) and shift (over half
@@ -326,13 +326,14 @@ impl Simulation {
             round_off(&assembly.strands[system.rod].problem, &system.record.poses, stage.of_rate)
         });
         let floor = floors.fold(0.0, f64::max);
-        let given = Given {
+        let tolerance = settings.tolerance.max(floor);
+        let mut given = Given {
             assembly,
             ties,
             inertia: &work.inertia,
             lengths: &work.lengths,
             lost: settings.mass_damping,
-            tolerance: settings.tolerance.max(floor),
+            tolerance: floor.max(OF_GUESS * settings.tolerance),
             level,
         };
         work.history.clear();
@@ -341,22 +342,15 @@ impl Simulation {
         let mut iterations = 0;
         // What is left over of a step that keeps energy adds up over all steps: one iteration more takes it to round-off.
         let mut last = !stage.middle;
-        let of_guess = floor.max(OF_GUESS * settings.tolerance);
         let (mut slopes, mut before) = (Slopes::Anew, f64::INFINITY);
         let residual = loop {
-            let mut residual = group.linearise(&given, stage, &mut work.poses, slopes);
-            let serves = residual <= given.tolerance.max(SERVES * before);
-            if slopes == Slopes::Kept && !serves {
-                slopes = Slopes::Anew;
-                residual = group.linearise(&given, stage, &mut work.poses, slopes);
-            }
-            before = residual;
+            let residual = group.linearise(&given, stage, &mut work.poses, slopes);
             work.history.push(residual);
             if !residual.is_finite() {
                 return Err(singular(&work.history));
             }
             let spent = iterations == settings.max_iterations;
-            let solved = residual <= if iterations == 0 { of_guess } else { given.tolerance };
+            let solved = residual <= given.tolerance;
             if spent && (settings.bounded && residual <= USABLE || solved)
                 || solved && last && !settings.bounded
             {
@@ -366,12 +360,21 @@ impl Simulation {
             if spent {
                 return Err(StepFailure::NotConverged { time, step, history: work.history.clone() });
             }
-            if group.solve(level, slopes).is_none() {
+            if slopes == Slopes::Kept && residual > tolerance.max(SERVES * before) {
+                slopes = Slopes::Anew;
+                group.linearise(&given, stage, &mut work.poses, slopes);
+            }
+            if !group.solve(level, slopes) {
+                // Where nothing keeps what is at rest from turning, a long step has no solution better than one that is good enough.
+                if residual <= tolerance {
+                    break residual;
+                }
                 return Err(singular(&work.history));
             }
             let size = group.step(assembly, ties, level, &mut work.poses);
             let near = size <= NEAR && group.keeps_slopes(stage);
             slopes = if near { Slopes::Kept } else { Slopes::Anew };
+            (before, given.tolerance) = (residual, tolerance);
             iterations += 1;
         };
         group.give_frames(&mut work.poses);

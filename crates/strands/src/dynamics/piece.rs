@@ -168,11 +168,12 @@ impl Simulation {
     fn bdf2(&mut self, held: &Held) -> Result<Taken, StepFailure> {
         let h = self.work.step;
         self.begin();
-        let Work { level, stage, viscous, .. } = &mut self.work;
-        stage.set_up(2.0 / 3.0 * h, &self.state);
-        if let Past::Before { poses, momenta } = &self.state.past {
-            stage.look_back((poses, momenta), &self.state.velocities, viscous, *level);
-        }
+        let Self { state, work: Work { level, stage, viscous, .. }, .. } = self;
+        stage.set_up(2.0 / 3.0 * h, state);
+        let Past::Before { poses, momenta } = &state.past else {
+            unreachable!("the step before is known where this is called")
+        };
+        stage.look_back((poses, momenta), &state.velocities, viscous, *level);
         held.at(1.0, self);
         let Work { level, stage, poses, .. } = &mut self.work;
         stage.follow(poses, *level);

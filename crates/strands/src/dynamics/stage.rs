@@ -178,11 +178,17 @@ impl Stage {
                 dispatch(level, TakeInertia::<false> { stage: self, first, inertia, poses, lost })
             }
         }
-        self.take_drag(frames, poses, resistance);
+        self.take_drag(frames, poses, resistance, slopes);
     }
 
     /// What the air exerts on some frames, beside what inertia does.
-    pub fn take_drag(&mut self, frames: Range<usize>, poses: &[Pose], resistance: &Resistance) {
+    pub fn take_drag(
+        &mut self,
+        frames: Range<usize>,
+        poses: &[Pose],
+        resistance: &Resistance,
+        slopes: Slopes,
+    ) {
         let Some((drag, lengths, wind)) = resistance.air else { return };
         let per_rate = 1.0 / self.of_rate;
         for (at, i) in frames.enumerate() {
@@ -190,6 +196,9 @@ impl Stage {
             let (force, by_velocity) = air(&drag, poses[at].rotation.cols[2], velocity);
             self.drags[i] = force * lengths[at];
             self.inertial[i].exerts.linear += self.drags[i];
+            if slopes == Slopes::Kept {
+                continue;
+            }
             let by_shift = &mut self.inertial[i].by_shift;
             *by_shift = *by_shift + by_velocity.scaled(lengths[at] * per_rate);
         }

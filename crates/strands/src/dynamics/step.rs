@@ -91,7 +91,9 @@ impl Simulation {
             // Solved, if not followed: nothing looks back on it.
             None => {
                 let taken = self.piece(integrator, held, WHOLE)?;
-                self.state.past = Past::None;
+                if alone != integrator {
+                    self.state.past = Past::None;
+                }
                 Ok(self.report(taken, self.work.step, 1))
             }
         }

@@ -68,8 +68,7 @@ impl Pose {
 }
 
 impl<R: Real> Mat3<Vec3<R>> {
-    /// The rotation vector of a turn by less than a radian, without a branch; NaN where it is larger. By the sine of a quarter of the angle, whose inverse
-    /// is a short series.
+    /// The rotation vector of a turn by less than a radian; NaN where it is larger. By the sine of a quarter of the angle, whose inverse is a short series.
     #[inline(always)]
     pub(crate) fn small_turn(&self) -> Vec3<R> {
         let ([a, b, c], half) = (self.cols, R::splat(0.5));

@@ -244,7 +244,7 @@ impl Nodal {
 
     /// What acts on the nodes beside the elements.
     fn load(&mut self, problem: &Problem, state: &Record) {
-        let axes = &{ self.axes };
+        let axes = self.axes;
         self.loads.clear();
         self.load_slopes.clear();
         for (i, pose) in state.poses.iter().enumerate() {
@@ -272,7 +272,7 @@ impl Nodal {
         }
         for (node, end) in problem.supports() {
             let Some(grip) = &end.grip else { continue };
-            let (wrench, slope) = grip_acts(grip, &state.poses[node], axes);
+            let (wrench, slope) = grip_acts(grip, &state.poses[node], &axes);
             self.loads[node] += wrench;
             self.load_slopes.push((node, slope.to_rows()));
         }
@@ -329,7 +329,7 @@ impl Nodal {
         (vanished == 0.0).then_some(negative as usize)
     }
 
-    /// Solves a rod that moves once more, for what acts now, with the slopes that were taken last: these are as if they had turned with its nodes.
+    /// Solves a rod that moves once more, for what acts now, with the slopes that were taken and solved with last, as if they had turned with its nodes.
     pub fn solve_again(&mut self, level: SimdLevel, state: &Record) {
         let Self { since, turned, .. } = self;
         since.clear();
