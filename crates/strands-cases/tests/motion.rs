@@ -55,6 +55,8 @@ fn thin_rods_swing_for_ten_seconds_and_keep_their_amplitude() {
         (&FINE_WIRE, Integrator::Sdirk4, 0.9999, 1.000_01),
         (&SUTURE, Integrator::Bdf2, 0.99, 1.0),
         (&FINE_WIRE, Integrator::Bdf2, 0.98, 1.0),
+        (&FINE_WIRE, Integrator::GeneralizedAlpha { spectral_radius: 0.5 }, 0.99, 1.0),
+        (&TUBE, Integrator::Bdf2, 0.99, 1.0),
     ] {
         let left = amplitude_left(rod, 50, integrator);
         assert!((least..=most).contains(&left), "{}, {}: {left}", rod.name, integrator.name());

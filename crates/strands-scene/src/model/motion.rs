@@ -72,7 +72,6 @@ impl Model {
             bounded: written.newton_iterations.is_some(),
             max_iterations: written.newton_iterations.unwrap_or(default.max_iterations),
             mass_damping: written.mass_damping.unwrap_or(default.mass_damping),
-            ..default
         }
     }
 
