@@ -18,8 +18,7 @@ pub struct Budget {
     pub load: f64,
     /// Taken out of it by damping and drag since the start: less than nothing where wind has put in more.
     pub dissipated: f64,
-    /// Put into it by supports, hands and loads that follow since the start. Where a support's speed jumps, as at a keyframe, all but the midpoint rule
-    /// miss this by about the energy of the node or body that jumps.
+    /// Put into it by supports, hands and loads that follow since the start.
     pub worked: f64,
 }
 

@@ -77,6 +77,11 @@ pub enum SimulationError {
         "the midpoint rule is for rods without bodies and hinges: take another integrator, \"sdirk4\" or \"bdf2\""
     )]
     NoMidpoint,
+    /// The midpoint rule keeps energy where its steps are solved only.
+    #[error(
+        "steps of bounded cost are not for the midpoint rule, which keeps energy only where they are solved: take \"bdf2\""
+    )]
+    UnboundedMidpoint,
     /// At rest a rod would not be where it is held.
     #[error(
         "in its rest shape rod {rod} is not where it is held at s = {s} m: start in equilibrium, or hold it there"

@@ -33,6 +33,8 @@ struct Hand {
 /// All supports of a step that moves some of them.
 pub(super) struct Held {
     moving: Vec<Moving>,
+    /// When the whole step began, and how long it is, s.
+    began: f64,
     step: f64,
 }
 
@@ -56,7 +58,7 @@ impl Held {
                 moving.push(Moving { member, frame, planned, target: support.pose, from: pose, to, hand });
             }
         }
-        Self { moving, step: simulation.work.step }
+        Self { moving, began: simulation.state.time, step: simulation.work.step }
     }
 
     /// Puts all where they are when a part of the step is over, for the stage that has been set up.
@@ -70,10 +72,10 @@ impl Held {
     }
 
     fn put(&self, part: f64, simulation: &mut Simulation, as_planned: bool) {
-        let Simulation { assembly, state, work, .. } = simulation;
+        let Simulation { assembly, work, .. } = simulation;
         for moving in &self.moving {
             let planned = moving.planned.filter(|_| as_planned);
-            let planned = planned.map(|at| assembly.moving[at].at(state.time + part * self.step));
+            let planned = planned.map(|at| assembly.moving[at].at(self.began + part * self.step));
             let Some(support) = assembly.support_mut(moving.member) else { continue };
             let between = moving.from.towards(&moving.to, part);
             let moved = || between.compose(&moving.to.inverse()).compose(&moving.target);

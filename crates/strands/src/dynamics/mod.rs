@@ -313,6 +313,9 @@ fn check(assembly: &Assembly, settings: &Settings) -> Result<(), SimulationError
     if integrator == Integrator::Midpoint && (hinges || !assembly.bodies.is_empty()) {
         return Err(SimulationError::NoMidpoint);
     }
+    if integrator == Integrator::Midpoint && settings.bounded {
+        return Err(SimulationError::UnboundedMidpoint);
+    }
     if let Integrator::GeneralizedAlpha { spectral_radius: radius } = integrator {
         setting("the spectral radius", radius, (0.0..=1.0).contains(&radius), "from 0 to 1")?;
     }

@@ -104,14 +104,15 @@ impl RodSystem {
     }
 }
 
-/// What is lent to the compliance against shifts, over `L³/EI`, on the way to a solution: a rod that cannot stretch has none.
-fn lent(problem: &Problem, of_rate: f64) -> f64 {
+/// What is lent to the compliance against shifts, over `L³/EI`, on the way to a solution: a rod that cannot stretch has none. So that it does not matter, the more
+/// hangs from the rod, so heavy (N) and of such a mass (kg), the less that is.
+fn lent(problem: &Problem, of_rate: f64, (weight, mass): (f64, f64)) -> f64 {
     let (rod, scale) = (&problem.rod, problem.rod.scale());
     if rod.kinematics() == Kinematics::Cosserat {
         return 0.0;
     }
-    let inertia = rod.mass() * scale.length / scale.force / (of_rate * of_rate);
-    rigid_compliance(1.0 + problem.load_size() + inertia)
+    let inertia = (rod.mass() + mass) * scale.length / (of_rate * of_rate);
+    rigid_compliance(1.0 + problem.load_size() + (weight + inertia) / scale.force)
 }
 
 /// The residual that round-off of the frames leaves: places and turns are known to so much, and rates of rates are that over the time squared.
@@ -180,18 +181,22 @@ impl Group {
             let [system] = &mut self.rods[..] else { return f64::NAN };
             let problem = &assembly.strands[system.rod].problem;
             let motion = system.motion(assembly, stage);
-            let lends = (lent(problem, stage.of_rate), slopes);
+            let lends = (lent(problem, stage.of_rate, (0.0, 0.0)), slopes);
             return system.nodal.linearise_moving(problem, level, lends, &motion, &system.record).residual();
         }
         self.give_frames(poses);
         let Some(network) = &mut self.network else { return f64::NAN };
         let origin = poses[network.frames()[0]].position;
         let axes = network.axes(assembly, origin);
+        let bodies = self.bodies.iter().map(|body| &assembly.bodies[*body]);
+        let hangs = bodies.fold((0.0, 0.0), |(weight, mass), body| {
+            (weight + body.load.linear.norm(), mass + body.inertia.mass)
+        });
         let mut slack = 0.0;
         for system in &mut self.rods {
             let problem = &assembly.strands[system.rod].problem;
             let motion = system.motion(assembly, stage);
-            let lends = (lent(problem, stage.of_rate), slopes);
+            let lends = (lent(problem, stage.of_rate, hangs), slopes);
             let RodSystem { nodal, record, .. } = system;
             slack = larger(slack, nodal.linearise_in(axes, problem, level, lends, &motion, record).slack);
         }

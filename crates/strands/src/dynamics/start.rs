@@ -1,7 +1,7 @@
 //! Where a simulation starts.
 
 use super::holds::put_as_planned;
-use super::{Integrator, Past, Power, Simulation, SimulationError, State, StepFailure};
+use super::{Integrator, Past, Power, Settings, Simulation, SimulationError, State, StepFailure};
 use crate::math::{Vec6, Wrench, larger};
 use crate::statics::{self, Method, Scheme, Workspace, meet};
 
@@ -93,7 +93,8 @@ impl Simulation {
     /// Where all comes to rest, by steps of backward Euler's method from rest that grow as it gets there (Kelley & Keyes 1998): one that is long
     /// beside all motion is a step of Newton's method for the equilibrium itself.
     fn relax(&mut self) -> Result<(), SimulationError> {
-        let bounded = core::mem::replace(&mut self.settings.bounded, false);
+        let settings = self.settings;
+        (self.settings.bounded, self.settings.max_iterations) = (false, Settings::default().max_iterations);
         let gravity = self.pull();
         let slowest = if gravity > 0.0 { (self.assembly.size() / gravity).sqrt() } else { 1.0 };
         let mut step = 0.1 * slowest;
@@ -112,7 +113,7 @@ impl Simulation {
                 break;
             }
         }
-        self.settings.bounded = bounded;
+        self.settings = settings;
         let last = self.work.step;
         let State { time, dissipated, worked, next_step, .. } = &mut self.state;
         (*time, *dissipated, *worked, *next_step) = (0.0, 0.0, 0.0, self.settings.time_step);

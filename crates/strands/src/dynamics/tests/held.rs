@@ -85,6 +85,25 @@ fn a_support_goes_where_its_keyframes_say_and_works() {
     }
 }
 
+/// Its node's speed jumps as the motion begins: what that takes is little, and all else goes into the rod.
+#[test]
+fn a_support_that_sets_off_at_once_works_no_more_than_the_rod_takes() {
+    for integrator in
+        [Integrator::Bdf2, Integrator::Sdirk4, Integrator::GeneralizedAlpha { spectral_radius: 0.5 }]
+    {
+        let mut assembly = Assembly::from(Problem::cantilever(suture(20)));
+        let to = Pose { position: Vec3::X * 0.05, ..Pose::IDENTITY };
+        let member = Member::Node { rod: 0, node: 0 };
+        assembly.moving.push(Keyframes { member, frames: vec![(0.0, Pose::IDENTITY), (0.1, to)] });
+        let settings = Settings { integrator, ..Settings::default() };
+        let mut simulation = Simulation::new(assembly, settings, Start::Rest).unwrap();
+        simulation.advance(0.005).unwrap();
+        let energy = simulation.energy();
+        let lost = -energy.total() / energy.worked;
+        assert!((-0.02..0.3).contains(&lost), "{}: {lost} of {energy:?}", integrator.name());
+    }
+}
+
 #[test]
 fn a_node_is_grasped_lifted_and_let_go() {
     for integrator in [Integrator::Bdf2, Integrator::Sdirk4, Integrator::Midpoint] {

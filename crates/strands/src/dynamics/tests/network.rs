@@ -227,6 +227,37 @@ fn a_ball_on_a_hinge_swings_as_a_pendulum() {
     assert!((measured / expected - 1.0).abs() < 1e-3, "{measured} s, {expected} expected");
 }
 
+/// Four million times what would bend it hangs from a thread that cannot stretch.
+#[test]
+fn a_ball_on_a_thread_swings_as_a_pendulum() {
+    let nylon = Material::from_poisson(1e9, 0.4, 1140.0).unwrap();
+    for integrator in [Integrator::Bdf2, Integrator::Sdirk4] {
+        let rod = rod(1.0, 1e-4, nylon, Kinematics::Kirchhoff, 20);
+        let gravity = Vec3::new(0.5_f64.sin(), 0.0, 0.5_f64.cos()) * 9.81;
+        let loads = NodalLoads::none(&rod).with_gravity(&rod, gravity);
+        let start = Support {
+            fixed: [false, false, false, true, true, true],
+            ..Support::clamped(rod.description().base)
+        };
+        let mut assembly = Assembly::from(Problem { loads, start, ..Problem::cantilever(rod) });
+        let (weight, place) = (ball(8000.0, 0.01), Pose { position: Vec3::Z, ..Pose::IDENTITY });
+        assembly.bodies.push(Body::new(weight, place).with_gravity(gravity));
+        tie(&mut assembly, JointKind::Ball, node(0, 20), Member::Body(0), Vec3::ZERO);
+        let settings = Settings { integrator, ..Settings::default() };
+        let mut simulation = Simulation::new(assembly, settings, Start::Rest).unwrap();
+        let began = simulation.energy().total();
+        // A quarter of the period of a pendulum of such an amplitude (Ω = π/2 √(g/l)/K(sin 0.25)).
+        let quarter = 0.509_467;
+        simulation.advance(quarter).unwrap();
+        let at = simulation.state().poses[21].position;
+        let aside = at.cross(gravity * (1.0 / 9.81)).norm();
+        let energy = simulation.energy();
+        let gained = (energy.total() - began) / energy.kinetic;
+        assert!(aside < 3e-3, "{}: {aside} at {at:?}", integrator.name());
+        assert!(gained.abs() < 1e-4, "{}: {gained} of {energy:?}", integrator.name());
+    }
+}
+
 /// A net of rods along x and y, tied where they cross, held at its corners.
 fn net(across: usize, elements: usize) -> Assembly {
     let pitch = 0.02;
