@@ -253,6 +253,18 @@ fn mend(model: &Model, simulation: &Simulation) -> String {
             rod.name
         );
     }
+    for (rod, strand) in model.rods.iter().zip(&assembly.strands) {
+        let stretches = strand.problem.stretches();
+        let beyond = stretches.iter().find(|stretch| stretch.spare() < 0.0);
+        if let (Some(stretch), Kinematics::Kirchhoff) = (beyond, strand.problem.rod.kinematics()) {
+            let [apart, length] =
+                [stretch.chord.norm(), stretch.length].map(|metres| engineering(metres, "m"));
+            return format!(
+                "supports of rod `{}` are then {apart} apart, and the rod between them is {length} long and does not stretch: move them less far, or take kinematics = \"cosserat\"",
+                rod.name
+            );
+        }
+    }
     let inextensible = |rod: &&ModelRod| rod.problem.rod.kinematics() == Kinematics::Kirchhoff;
     match model.rods.iter().find(inextensible) {
         Some(rod) => {

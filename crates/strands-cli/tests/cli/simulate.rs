@@ -239,3 +239,34 @@ fn the_last_frame_is_where_the_run_ends() {
     let last = frames[frames.len() - 1]["t"].as_f64().unwrap();
     assert!((last - 0.01 * answer["steps"].as_f64().unwrap()).abs() < 1e-9, "{last}");
 }
+
+#[test]
+fn supports_that_go_beyond_an_inextensible_rod_are_named() {
+    let folder = folder("beyond");
+    let scene = r#"
+format = 1
+name = "taut"
+[materials.nylon]
+youngs_modulus = 2e9
+poisson_ratio = 0.4
+density = 1140.0
+[rods.thread]
+material = "nylon"
+length = 0.3
+elements = 10
+kinematics = "kirchhoff"
+section = { shape = "circle", radius = 3e-4 }
+supports = [
+    { at = "start", fix = ["position"] },
+    { at = "end", fix = ["position"], motion = [{ t = 0.0 }, { t = 0.01, position = [0.0, 0.0, 0.4] }] },
+]
+[dynamics]
+start = "rest"
+"#;
+    let path = folder.join("taut.toml");
+    std::fs::write(&path, scene).unwrap();
+    let run = strands(&["simulate", path.to_str().unwrap(), "--seconds", "0.05"]);
+    assert_eq!(run.code, 2, "{} {}", run.out, run.err);
+    let mend = "the rod between them is 300.0 mm long and does not stretch: move them less far";
+    assert!(run.out.contains(mend), "{}", run.out);
+}
