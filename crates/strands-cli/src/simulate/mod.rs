@@ -254,9 +254,7 @@ fn mend(model: &Model, simulation: &Simulation) -> String {
         );
     }
     for (rod, strand) in model.rods.iter().zip(&assembly.strands) {
-        let stretches = strand.problem.stretches();
-        let beyond = stretches.iter().find(|stretch| stretch.spare() < 0.0);
-        if let (Some(stretch), Kinematics::Kirchhoff) = (beyond, strand.problem.rod.kinematics()) {
+        if let Some(stretch) = strand.problem.out_of_reach() {
             let [apart, length] =
                 [stretch.chord.norm(), stretch.length].map(|metres| engineering(metres, "m"));
             return format!(

@@ -4,8 +4,9 @@
 use super::stage::Stage;
 use crate::math::{Kernel, Lanes, Mat3, Pose, Quat, Vec3, Vec6, turns};
 
-const SIDE: usize = 8;
-type Side = Vec3<Lanes<SIDE>>;
+/// How many frames stand side by side.
+pub(super) const SIDE: usize = 8;
+pub(super) type Side = Vec3<Lanes<SIDE>>;
 
 /// The coordinates of a frame about another.
 pub(super) fn coordinates(base: &Pose, pose: &Pose) -> Vec6 {
@@ -16,6 +17,20 @@ pub(super) fn coordinates(base: &Pose, pose: &Pose) -> Vec6 {
 pub(super) fn at_coordinates(base: &Pose, q: Vec6) -> Pose {
     let turn = Quat::from_rotation_vector(q.angular).to_matrix();
     Pose { rotation: base.rotation * turn, position: base.position + q.linear }
+}
+
+/// How frames are turned, and their coordinates about others, from one on as many as there are lanes; past the last it repeats that.
+#[inline(always)]
+pub(super) fn side_by_side(bases: &[Pose], poses: &[Pose], begin: usize) -> (Mat3<Side>, Vec6<Side>) {
+    let mut base = Mat3 { cols: [Side::zero(); 3] };
+    let (mut rotation, mut shift) = (base, Side::zero());
+    for lane in 0..SIDE {
+        let i = (begin + lane).min(poses.len() - 1);
+        base.put(lane, &bases[i].rotation);
+        rotation.put(lane, &poses[i].rotation);
+        shift.put(lane, poses[i].position - bases[i].position);
+    }
+    (rotation, Vec6::new(turns(&(base.transpose() * rotation)), shift))
 }
 
 /// Takes what backward differences of order 2 know of the coordinates by the frames at the beginning of the step before, and guesses their rates: with `c`
@@ -37,16 +52,7 @@ impl Kernel for LookBack<'_> {
         // A rate counts for two thirds of the step.
         let per_step = 2.0 / 3.0 / stage.of_rate;
         for first in (0..frames).step_by(SIDE) {
-            let mut base = Mat3 { cols: [Side::zero(); 3] };
-            let mut rotation = base;
-            let mut shift = Side::zero();
-            for lane in 0..SIDE {
-                let i = (first + lane).min(frames - 1);
-                base.put(lane, &stage.base[i].rotation);
-                rotation.put(lane, &before[i].rotation);
-                shift.put(lane, before[i].position - stage.base[i].position);
-            }
-            let c = Vec6::new(turns(&(base.transpose() * rotation)), shift);
+            let (_, c) = side_by_side(&stage.base, before, first);
             for lane in 0..SIDE.min(frames - first) {
                 let (i, c) = (first + lane, c.lane(lane));
                 stage.offsets[i] = c * (-1.0 / 3.0);

@@ -1,11 +1,9 @@
 //! What inertia exerts on frames in a stage, several side by side.
 
+use super::coordinates::{SIDE, Side, side_by_side};
 use super::stage::Stage;
-use crate::math::{Kernel, Lanes, Mat3, Pose, Real, Vec3, Vec6, Wrench, exp_coefficients, turns};
+use crate::math::{Kernel, Lanes, Mat3, Pose, Real, Vec3, Vec6, Wrench, exp_coefficients};
 use crate::rod::NodeInertia;
-
-const SIDE: usize = 8;
-type Side = Vec3<Lanes<SIDE>>;
 
 /// Takes what inertia exerts on frames from the first on, and how they move; with slopes, how that changes with the frames.
 pub(super) struct TakeInertia<'a, const SLOPES: bool> {
@@ -25,22 +23,16 @@ impl<const SLOPES: bool> Kernel for TakeInertia<'_, SLOPES> {
         let Self { stage, first, inertia, poses, lost } = self;
         for begin in (0..poses.len()).step_by(SIDE) {
             let at = |lane: usize| (begin + lane).min(poses.len() - 1);
-            let mut base = Mat3 { cols: [Side::zero(); 3] };
-            let mut rotation = base;
-            let [mut shift, mut rotational] = [Side::zero(); 2];
+            let (rotation, q) = side_by_side(&stage.base[first..], poses, begin);
+            let mut rotational = Side::zero();
             let [mut offset, mut known] = [Vec6::<Side>::zero(); 2];
             let mass = Lanes::from_fn(|lane| inertia[first + at(lane)].mass);
             for lane in 0..SIDE {
-                let (i, pose) = (first + at(lane), &poses[at(lane)]);
-                let before = &stage.base[i];
-                base.put(lane, &before.rotation);
-                rotation.put(lane, &pose.rotation);
-                shift.put(lane, pose.position - before.position);
+                let i = first + at(lane);
                 rotational.put(lane, inertia[i].rotational);
                 offset.put(lane, stage.offsets[i]);
                 known.put(lane, stage.known_momenta[i]);
             }
-            let q = Vec6::new(turns(&(base.transpose() * rotation)), shift);
             let per_rate = Lanes::splat(1.0 / stage.of_rate);
             let per_momentum = per_rate + Lanes::splat(lost);
             let rate = (q - offset) * per_rate;

@@ -29,9 +29,14 @@ impl Mat3 {
         self.cols.iter().fold(0.0, |max, c| max.max(c.max_abs()))
     }
 
+    /// Of a turn, the rotation vector, rad.
+    pub fn rotation_vector(self) -> Vec3 {
+        Quat::from_matrix(self).to_rotation_vector()
+    }
+
     /// The rotation vector from one orientation to another, in the axes of either, rad.
     pub fn turn_to(&self, other: &Self) -> Vec3 {
-        Quat::from_matrix(self.transpose() * *other).to_rotation_vector()
+        (self.transpose() * *other).rotation_vector()
     }
 
     /// Whether every entry is finite.

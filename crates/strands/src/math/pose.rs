@@ -33,7 +33,7 @@ impl Pose {
     /// The logarithm: the constant strain that leads from the identity to this pose over unit length, its angle at most π.
     /// Accurate to round-off for every angle; at exactly half a turn one of the two axes is taken.
     pub fn log(&self) -> Vec6 {
-        let u = Quat::from_matrix(self.rotation).to_rotation_vector();
+        let u = self.rotation.rotation_vector();
         let (_, d, _) = inverse_coefficients(u.dot(u));
         let p = self.position;
         let up = u.cross(p);
@@ -120,7 +120,7 @@ pub(crate) fn turns<R: Wide>(rotations: &Mat3<Vec3<R>>) -> Vec3<R> {
 fn take_large_turns<R: Wide>(rotations: &Mat3<Vec3<R>>, turns: &mut Vec3<R>) {
     for lane in 0..R::LANES {
         if turns.x.number(lane).is_nan() {
-            turns.put(lane, Quat::from_matrix(rotations.lane(lane)).to_rotation_vector());
+            turns.put(lane, rotations.lane(lane).rotation_vector());
         }
     }
 }

@@ -569,8 +569,7 @@ pub(crate) fn balance(problem: &Problem, record: &mut Record) {
                 balanced += grip.wrench(pose).turned_back_by(&pose.rotation);
             }
             // What is still out of balance is the support's, as far as it can bear it.
-            let rest = record.wrenches[e] - balanced;
-            let rest = Wrench::new(pose.rotation * rest.angular, pose.rotation * rest.linear);
+            let rest = (record.wrenches[e] - balanced).turned_by(&pose.rotation);
             balanced += borne(support, pose, rest).turned_back_by(&pose.rotation);
         }
         record.wrenches[e] = balanced;

@@ -386,12 +386,8 @@ fn refused(problem: &Problem, settings: &Settings) -> Option<FailureReason> {
     {
         return Some(FailureReason::NotStandard { what });
     }
-    if problem.rod.kinematics() != Kinematics::Kirchhoff {
-        return None;
-    }
     let nodes = problem.rod.mesh().nodes();
-    let too_far = problem.stretches().into_iter().find(|stretch| stretch.spare() < -1e-12)?;
-    let Stretch { from, to, chord, length } = too_far;
+    let Stretch { from, to, chord, length } = problem.out_of_reach()?;
     Some(FailureReason::OutOfReach { distance: chord.norm(), length, from: nodes[from], to: nodes[to] })
 }
 

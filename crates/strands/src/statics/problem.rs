@@ -134,6 +134,12 @@ impl Problem {
         held.windows(2).map(stretch).collect()
     }
 
+    /// A stretch of a rod that cannot stretch whose ends are further apart than it is long, if there is one.
+    pub fn out_of_reach(&self) -> Option<Stretch> {
+        let stretches = || self.stretches().into_iter().find(|stretch| stretch.spare() < -1e-12);
+        if self.rod.kinematics() == Kinematics::Kirchhoff { stretches() } else { None }
+    }
+
     /// The two ends and the nodes that are held between, in order, and how.
     pub fn supports(&self) -> impl DoubleEndedIterator<Item = (usize, &Support)> {
         let between = self.between.iter().map(|(node, support)| (*node, support));

@@ -117,7 +117,7 @@ pub fn unstable_mode(
     let Workspace { record, nodal, variation, simd, .. } = workspace;
     let WayDown { slope, mut motion } = way_down(problem, *simd, nodal, variation, record)?;
     nodal.keep_to_holds(record, &mut motion);
-    let in_world = |(pose, m): (&Pose, &Vec6)| Vec6::new(pose.rotation * m.angular, pose.rotation * m.linear);
+    let in_world = |(pose, m): (&Pose, &Vec6)| m.turned_by(&pose.rotation);
     let moved: Vec<Vec6> = record.poses.iter().zip(&motion).map(in_world).collect();
     let size = moved.iter().map(|m| larger(m.angular.norm(), m.linear.norm())).fold(0.0, larger);
     let largest = moved

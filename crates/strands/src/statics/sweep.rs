@@ -10,7 +10,7 @@ use super::problem::Problem;
 use super::shooting::{Outcome, Search, Workspace};
 use super::solution::{Guess, Settings, SolveReport};
 use crate::element::PointStrains;
-use crate::math::{Pose, Quat, Wrench, larger};
+use crate::math::{Pose, Wrench, larger};
 use crate::rod::Rod;
 
 /// Why a problem is not the standard one; `None` where it is.
@@ -54,10 +54,8 @@ pub(crate) fn two_sweeps(
     let tip = workspace.record.poses[problem.rod.elements()];
     let state = EndState::from_guess(problem, &Guess::new(tip, Wrench::ZERO));
     let gap = base.between(&start.pose);
-    let missed = larger(
-        Quat::from_matrix(gap.rotation).to_rotation_vector().max_abs(),
-        gap.position.max_abs() / problem.rod.length(),
-    );
+    let missed =
+        larger(gap.rotation.rotation_vector().max_abs(), gap.position.max_abs() / problem.rod.length());
     report.residual = larger(missed, f64::EPSILON * largest_turn(&problem.rod, &workspace.record));
     report.residual_history.push(report.residual);
     let outcome = match report.residual {

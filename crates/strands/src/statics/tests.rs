@@ -184,7 +184,7 @@ fn solution_moves_with_the_problem() {
         let mut there = Problem::cantilever(Rod::with_elements(description, 60, &[], order).unwrap());
         there.loads = problem.loads.clone();
         for load in &mut there.loads.world {
-            *load = Wrench::new(motion.rotation * load.angular, motion.rotation * load.linear);
+            *load = load.turned_by(&motion.rotation);
         }
         let there = solved(&there, &settings);
         for (a, b) in here.poses.iter().zip(&there.poses) {

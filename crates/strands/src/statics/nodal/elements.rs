@@ -98,7 +98,6 @@ impl<const SLOPES: bool> Kernel for Look<'_, SLOPES> {
     fn run(self) -> f64 {
         let Self { rod, points, axes, lent, state, links, resists } = self;
         let n = rod.elements();
-        let mut worst = 0.0;
         links.resize(n, Link { arm: Vec3::ZERO, carried: Wrench::ZERO, pull: Wrench::ZERO });
         resists.resize(n, Resists { arm: Vec3::ZERO, stiffness: [[0.0; 6]; 6] });
         let mut largest_slack = Lanes::<BATCH>::splat(0.0);
@@ -125,6 +124,7 @@ impl<const SLOPES: bool> Kernel for Look<'_, SLOPES> {
                 }
             }
         }
+        let mut worst = 0.0;
         for i in 0..BATCH {
             worst = larger(worst, largest_slack.0[i]);
         }

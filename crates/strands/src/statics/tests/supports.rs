@@ -84,8 +84,7 @@ fn a_collar_slides_and_a_hinge_turns_without_resistance() {
             assert!(reaction.force.norm() > 1e-3 && reaction.moment.norm() > 1e-4);
             let reached = solution.poses[node];
             let shift = reached.position - target.position;
-            let turn = target.rotation
-                * Quat::from_matrix(target.rotation.transpose() * reached.rotation).to_rotation_vector();
+            let turn = target.rotation * target.rotation.turn_to(&reached.rotation);
             assert!(
                 shift.cross(slide).norm() < 1e-10 && shift.norm() > 1e-4,
                 "{kinematics:?} {node}: {shift:?}"
