@@ -1,9 +1,14 @@
 //! States of simulations as files, from which they go on to the same bits.
 
+use core::fmt;
+
 use serde::{Deserialize, Serialize};
 use strands::dynamics::{Means, Past, Power, State};
 use strands::math::{Mat3, Pose, Vec3, Vec6};
+use strands::rod::Rod;
 use thiserror::Error;
+
+use crate::Model;
 
 /// The format that is written and read. In the first one angular momenta were about a place of all.
 const FORMAT: u32 = 2;
@@ -17,6 +22,16 @@ pub enum StateError {
     /// It is of another version.
     #[error("a state of format {0}, and this program reads format {FORMAT}; write it anew with `strands simulate --save`", FORMAT = FORMAT)]
     Format(u32),
+    /// It is of other rods or bodies.
+    #[error(
+        "the state is of {there}, and this scene has {here} there: give a state of the same rods and bodies"
+    )]
+    Other {
+        /// What it is of.
+        there: String,
+        /// What the scene has in that place.
+        here: String,
+    },
 }
 
 type Row<const N: usize> = Vec<[f64; N]>;
@@ -26,6 +41,9 @@ type Row<const N: usize> = Vec<[f64; N]>;
 #[serde(deny_unknown_fields)]
 struct Written {
     format: u32,
+    /// What moves.
+    rods: Vec<WrittenRod>,
+    bodies: Vec<WrittenBody>,
     time: f64,
     poses: Row<12>,
     velocities: Row<6>,
@@ -36,6 +54,33 @@ struct Written {
     power: [f64; 2],
     next_step: f64,
     past: WrittenPast,
+}
+
+#[derive(PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+struct WrittenRod {
+    elements: usize,
+    length: f64,
+    mass: f64,
+}
+
+#[derive(PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+struct WrittenBody {
+    mass: f64,
+}
+
+impl fmt::Display for WrittenRod {
+    fn fmt(&self, f: &mut fmt::Formatter) -> fmt::Result {
+        let Self { elements, length, mass } = self;
+        write!(f, "a rod of {elements} elements, {length} m and {mass:.3e} kg")
+    }
+}
+
+impl fmt::Display for WrittenBody {
+    fn fmt(&self, f: &mut fmt::Formatter) -> fmt::Result {
+        write!(f, "a body of {:.3e} kg", self.mass)
+    }
 }
 
 #[derive(Serialize, Deserialize)]
@@ -54,10 +99,13 @@ struct WrittenMeans {
     strain: Row<6>,
 }
 
-/// The state as a file's text.
-pub fn state_json(state: &State) -> String {
+/// The state of a scene in motion as a file's text.
+pub fn state_json(model: &Model, state: &State) -> String {
+    let (rods, bodies) = what_moves(model);
     let written = Written {
         format: FORMAT,
+        rods,
+        bodies,
         time: state.time,
         poses: poses_out(&state.poses),
         velocities: sixes_out(&state.velocities),
@@ -86,15 +134,18 @@ pub fn state_json(state: &State) -> String {
     serde_json::to_string(&written).unwrap_or_else(|error| unreachable!("numbers have a form: {error}"))
 }
 
-/// The state that a file's text is of.
+/// The state of a scene in motion that a file's text is of.
 ///
 /// # Errors
-/// Where it is not the text of a state.
-pub fn read_state(text: &str) -> Result<State, StateError> {
+/// Where it is not the text of a state, or of one of other rods and bodies.
+pub fn read_state(model: &Model, text: &str) -> Result<State, StateError> {
     let written: Written = serde_json::from_str(text)?;
     if written.format != FORMAT {
         return Err(StateError::Format(written.format));
     }
+    let (rods, bodies) = what_moves(model);
+    same(&written.rods, &rods)?;
+    same(&written.bodies, &bodies)?;
     let [dissipated, worked] = written.power;
     Ok(State {
         time: written.time,
@@ -122,6 +173,25 @@ pub fn read_state(text: &str) -> Result<State, StateError> {
             },
         },
     })
+}
+
+fn what_moves(model: &Model) -> (Vec<WrittenRod>, Vec<WrittenBody>) {
+    let rod = |rod: &Rod| WrittenRod { elements: rod.elements(), length: rod.length(), mass: rod.mass() };
+    let rods = model.rods.iter().map(|of| rod(&of.problem.rod));
+    let bodies = model.bodies.iter().map(|of| WrittenBody { mass: of.body.inertia.mass });
+    (rods.collect(), bodies.collect())
+}
+
+/// Refuses those that are not the same, to the bit.
+fn same<T: PartialEq + fmt::Display>(there: &[T], here: &[T]) -> Result<(), StateError> {
+    let said = |of: Option<&T>| of.map_or_else(|| "none".to_owned(), T::to_string);
+    for k in 0..there.len().max(here.len()) {
+        let (there, here) = (there.get(k), here.get(k));
+        if there != here {
+            return Err(StateError::Other { there: said(there), here: said(here) });
+        }
+    }
+    Ok(())
 }
 
 fn sixes_out(sixes: &[Vec6]) -> Row<6> {

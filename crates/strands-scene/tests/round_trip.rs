@@ -292,7 +292,8 @@ fn solver() -> impl Strategy<Value = SolverFile> {
 
 fn dynamics() -> impl Strategy<Value = DynamicsFile> {
     use IntegratorName::*;
-    let integrator = prop::sample::select(vec![Bdf2, ImplicitEuler, GeneralizedAlpha, Midpoint, Sdirk4]);
+    let integrator =
+        prop::sample::select(vec![Bdf2, ImplicitEuler, GeneralizedAlpha, Midpoint, Sdirk4, TrBdf2]);
     let number = || prop::option::of(positive());
     (
         prop::option::of(integrator),

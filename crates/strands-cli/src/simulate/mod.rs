@@ -8,9 +8,9 @@ use std::time::Instant;
 
 use indicatif::ProgressBar;
 use strands::assembly::{Member, Strand};
-use strands::dynamics::{Settings, Simulation, SimulationError, Start};
+use strands::dynamics::{Integrator, Settings, Simulation, SimulationError, Start, StepFailure};
 use strands::rod::Kinematics;
-use strands::statics::Reaction;
+use strands::statics::{Reaction, Support};
 use strands_scene::write::{End, Frame, FrameEnergy, MovedBody, MovedRod, Ran, motion_json};
 use strands_scene::{MeshChoice, Model, ModelBody, ModelRod, OUTPUT_RATE, read_state, state_json};
 
@@ -67,7 +67,7 @@ pub fn run(options: &Simulate) -> Result<(), Failure> {
     let real_time_factor = if steps == 0 { 0.0 } else { simulated / seconds };
     let ran = Ran { steps, real_time_factor, end };
     if let Some(path) = &options.save {
-        let text = state_json(simulation.state());
+        let text = state_json(&model, simulation.state());
         std::fs::write(path, text).map_err(|error| Failure::file(path.display(), &error))?;
     }
     for (path, format) in outputs {
@@ -104,10 +104,16 @@ fn keep_apart(options: &Simulate) -> Result<(), Failure> {
 impl Plan {
     fn new(options: &Simulate, source: &Source, model: &Model) -> Result<Self, Failure> {
         let (settings, dynamics) = (model.motion(), &model.dynamics);
+        if let (Integrator::Sdirk4, Some(rod)) = (settings.integrator, inextensible(model)) {
+            tell(&format!(
+                "note: sdirk4 gains energy where rods that do not stretch, as `{}`, turn; tr_bdf2 and bdf2 do not",
+                rod.name
+            ));
+        }
         let start = match dynamics.start.as_deref().unwrap_or("equilibrium") {
             "equilibrium" => Start::Equilibrium,
             "rest" => Start::Rest,
-            file => saved(&source.beside(file))?,
+            file => saved(model, &source.beside(file))?,
         };
         let positive = |name: &str, value: f64| {
             let fits = value > 0.0 && value.is_finite();
@@ -136,15 +142,20 @@ impl Plan {
     }
 }
 
+/// A rod that does not stretch.
+fn inextensible(model: &Model) -> Option<&ModelRod> {
+    model.rods.iter().find(|rod| rod.problem.rod.kinematics() == Kinematics::Kirchhoff)
+}
+
 /// The state in a file.
-fn saved(path: &Path) -> Result<Start, Failure> {
+fn saved(model: &Model, path: &Path) -> Result<Start, Failure> {
     let text = std::fs::read_to_string(path).map_err(|error| {
         Failure::bad(format!(
             "dynamics.start: {} cannot be read ({error}): give \"equilibrium\", \"rest\" or the file of a saved state",
             path.display()
         ))
     })?;
-    let state = read_state(&text)
+    let state = read_state(model, &text)
         .map_err(|error| Failure::bad(format!("dynamics.start: {}: {error}", path.display())))?;
     Ok(Start::State(Box::new(state)))
 }
@@ -205,7 +216,7 @@ fn stepped(model: &Model, plan: &Plan, simulation: &mut Simulation, bar: &Progre
         let step = match simulation.step_towards(due) {
             Ok(step) => step,
             Err(failure) => {
-                run.end = End::Failed(format!("{failure}; {}", mend(model, simulation)));
+                run.end = End::Failed(format!("{failure}; {}", mend(model, simulation, &failure)));
                 if simulation.state().time > run.frames[run.frames.len() - 1].time {
                     let mut last = frame(model, simulation, iterations, residual);
                     // What was solved last is the step that failed.
@@ -239,8 +250,13 @@ const SAME_TIME: f64 = 1e-6;
 const SHARP: f64 = 1.0;
 
 /// What may help where a step cannot be made.
-fn mend(model: &Model, simulation: &Simulation) -> String {
+fn mend(model: &Model, simulation: &Simulation, failure: &StepFailure) -> String {
     let (assembly, state) = (simulation.assembly(), simulation.state());
+    if matches!(failure, StepFailure::TooShort { .. }) {
+        let longer =
+            if model.dynamics.tolerance.is_some() { "a larger tolerance" } else { "a longer time_step" };
+        return format!("take {longer}");
+    }
     let bend = |rod: usize| {
         let pairs = state.poses[assembly.nodes(rod)].windows(2);
         pairs.map(|pair| pair[0].rotation.turn_to(&pair[1].rotation).norm()).fold(0.0, f64::max)
@@ -253,7 +269,7 @@ fn mend(model: &Model, simulation: &Simulation) -> String {
             rod.name
         );
     }
-    for (rod, strand) in model.rods.iter().zip(&assembly.strands) {
+    for (number, (rod, strand)) in model.rods.iter().zip(&assembly.strands).enumerate() {
         if let Some(stretch) = strand.problem.out_of_reach() {
             let [apart, length] =
                 [stretch.chord.norm(), stretch.length].map(|metres| engineering(metres, "m"));
@@ -262,9 +278,33 @@ fn mend(model: &Model, simulation: &Simulation) -> String {
                 rod.name
             );
         }
+        let first = assembly.nodes(number).start;
+        let moved = |(node, support): (usize, &Support)| {
+            let held = support.fixed[3..].iter().any(|fixed| *fixed);
+            if held { (support.pose.position - state.poses[first + node].position).norm() } else { 0.0 }
+        };
+        let (far, element) =
+            (strand.problem.supports().map(moved).fold(0.0, f64::max), strand.problem.rod.element_length(0));
+        if far > element {
+            let [far, element] = [far, element].map(|metres| engineering(metres, "m"));
+            return format!(
+                "a support of rod `{}` moves by {far} in that step, and an element is {element} long: take a shorter time_step",
+                rod.name
+            );
+        }
     }
-    let inextensible = |rod: &&ModelRod| rod.problem.rod.kinematics() == Kinematics::Kirchhoff;
-    match model.rods.iter().find(inextensible) {
+    if let Some(iterations) = model.dynamics.newton_iterations {
+        return format!(
+            "newton_iterations = {iterations} may be too few, or a shorter time_step may be solved"
+        );
+    }
+    match inextensible(model) {
+        Some(rod) if simulation.settings().integrator == Integrator::Sdirk4 => {
+            format!(
+                "sdirk4 gains energy where rods that do not stretch, as `{}`, turn: take tr_bdf2 or bdf2",
+                rod.name
+            )
+        }
         Some(rod) => {
             format!("a longer time_step may be solved, or kinematics = \"cosserat\" for rod `{}`", rod.name)
         }

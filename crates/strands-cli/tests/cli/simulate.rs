@@ -188,6 +188,7 @@ fn a_saved_state_goes_on_to_the_same_bits() {
         ("{}".to_owned(), "not the state of a simulation"),
         (half.replace("\"next_step\":", "\"next_step\":-"), "a next step that is not longer than nothing"),
         (half.replacen("\"wrenches\":[", "\"wrenches\":[[0,0,0,0,0,0],", 1), "give a state of the same rods"),
+        (half.replacen("\"length\":", "\"length\":2", 1), "give a state of the same rods"),
     ] {
         std::fs::write(folder.join("half.json"), state).unwrap();
         let refused = strands(&[FALL.as_slice(), &["--set", &start]].concat());

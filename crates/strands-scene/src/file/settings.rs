@@ -129,6 +129,8 @@ pub enum IntegratorName {
     GeneralizedAlpha,
     /// The implicit midpoint rule.
     Midpoint,
-    /// A singly diagonally implicit Runge–Kutta method of order four, L-stable.
+    /// A singly diagonally implicit Runge–Kutta method of order four, L-stable; for rods that stretch.
     Sdirk4,
+    /// The trapezoidal rule and backward differences of order two in one step, L-stable.
+    TrBdf2,
 }

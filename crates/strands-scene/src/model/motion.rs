@@ -5,6 +5,7 @@ use crate::file::IntegratorName;
 use strands::assembly::{Assembly, JointKind, Keyframes, Member, Strand};
 use strands::dynamics::{self, Integrator, Simulation, SimulationError, Start};
 use strands::math::{Vec3, Vec6};
+use strands::rod::Kinematics;
 
 /// What generalised-α leaves after a step of a motion that is much faster, where the scene does not say it.
 const SPECTRAL_RADIUS: f64 = 0.5;
@@ -48,8 +49,10 @@ impl Model {
     pub fn motion(&self) -> dynamics::Settings {
         let (written, default) = (&self.dynamics, dynamics::Settings::default());
         let chosen = written.tolerance.is_some();
+        let all_stretch = self.rods.iter().all(|rod| rod.problem.rod.kinematics() == Kinematics::Cosserat);
         let integrator = match written.integrator {
-            None if chosen => Integrator::Sdirk4,
+            None if chosen && all_stretch => Integrator::Sdirk4,
+            None if chosen => Integrator::TrBdf2,
             None => default.integrator,
             Some(IntegratorName::Bdf2) => Integrator::Bdf2,
             Some(IntegratorName::ImplicitEuler) => Integrator::ImplicitEuler,
@@ -58,6 +61,7 @@ impl Model {
             },
             Some(IntegratorName::Midpoint) => Integrator::Midpoint,
             Some(IntegratorName::Sdirk4) => Integrator::Sdirk4,
+            Some(IntegratorName::TrBdf2) => Integrator::TrBdf2,
         };
         let longest =
             if chosen { 1.0 / written.output_rate.unwrap_or(OUTPUT_RATE) } else { default.time_step };

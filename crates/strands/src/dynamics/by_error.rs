@@ -1,6 +1,6 @@
 //! Steps that are as long as their error allows.
 
-use super::integrator::SDIRK4_ERROR;
+use super::integrator::{RungeKutta, SDIRK4, TR_BDF2};
 use super::{Integrator, Simulation, Step, StepFailure, Taken};
 use crate::math::{Vec6, larger};
 
@@ -14,9 +14,10 @@ const AGAIN: f64 = 0.7;
 const SHORTEST: f64 = 1e-9;
 
 impl Simulation {
-    /// Makes a step as long as its error allows, by the method of order 4 and the one of order 3 in it.
+    /// Makes a step as long as its error allows, by a method and the other one in it.
     pub(super) fn step_by_error(&mut self, allowed: f64, longest: f64) -> Result<Step, StepFailure> {
-        let before = self.state.clone();
+        let (integrator, before) = (self.settings.integrator, self.state.clone());
+        let method = if integrator == Integrator::TrBdf2 { &TR_BDF2 } else { &SDIRK4 };
         let mut iterations = 0;
         let longest = longest.min(self.settings.time_step);
         // One that is nearly over is divided evenly.
@@ -26,10 +27,10 @@ impl Simulation {
             longest.min(before.next_step)
         };
         for tries in 1.. {
-            let made = self.undivided(Integrator::Sdirk4, step);
-            let error = self.local_error() / allowed;
+            let made = self.undivided(integrator, step);
+            let error = self.local_error(method) / allowed;
             let grows = match &made {
-                Ok(_) => (SAFETY / error.powf(0.25)).clamp(SHORTER, LONGER),
+                Ok(_) => (SAFETY / error.powf(1.0 / method.error_order)).clamp(SHORTER, LONGER),
                 Err(_) => SHORTER,
             };
             match made {
@@ -42,7 +43,10 @@ impl Simulation {
                     iterations += taken.iterations;
                     return Ok(self.report(Taken { iterations, ..taken }, step, tries));
                 }
-                Err(failure) if step < SHORTEST * self.settings.time_step => {
+                Err(failure)
+                    if step < SHORTEST * self.settings.time_step
+                        || matches!(failure, StepFailure::TooShort { .. }) =>
+                {
                     self.state = before;
                     return Err(failure);
                 }
@@ -59,14 +63,13 @@ impl Simulation {
         unreachable!("steps are shortened until they are too short")
     }
 
-    /// How much a step of the method of order 4 moves frames otherwise than the one of order 3 in it: turns in rad, and shifts over the longest rod's
-    /// length.
-    fn local_error(&self) -> f64 {
+    /// How much a step of a method moves frames otherwise than the other one in it: turns in rad, and shifts over the longest rod's length.
+    fn local_error(&self, method: &RungeKutta) -> f64 {
         let frames = self.state.poses.len();
         let size = self.assembly.size();
         let rates = &self.work.coordinate_rates;
         let error = (0..frames).map(|frame| {
-            let terms = SDIRK4_ERROR.iter().enumerate();
+            let terms = method.error.iter().enumerate();
             let apart = terms.fold(Vec6::ZERO, |sum, (stage, weight)| {
                 sum + rates.get(stage * frames + frame).map_or(Vec6::ZERO, |rate| *rate * *weight)
             });

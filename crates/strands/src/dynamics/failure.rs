@@ -8,7 +8,10 @@ use thiserror::Error;
 #[derive(Clone, Debug, Error, PartialEq)]
 pub enum StepFailure {
     /// Newton's method did not come to the tolerance.
-    #[error("at {time} s a step of {step} s was not solved in {} iterations: residuals {}", history.len() - 1, written(history))]
+    #[error(
+        "at {} s a step of {} s was not solved in {} iterations: residuals {}",
+        seconds(*time), seconds(*step), history.len() - 1, written(history)
+    )]
     NotConverged {
         /// When, s.
         time: f64,
@@ -19,8 +22,8 @@ pub enum StepFailure {
     },
     /// A pivot vanished, or a frame is not finite.
     #[error(
-        "at {time} s a step of {step} s led nowhere: residuals {}; what nothing keeps from turning needs inertia about every axis",
-        written(history)
+        "at {} s a step of {} s led nowhere: residuals {}; what nothing keeps from turning needs inertia about every axis",
+        seconds(*time), seconds(*step), written(history)
     )]
     Singular {
         /// When, s.
@@ -30,15 +33,33 @@ pub enum StepFailure {
         /// The residuals until then.
         history: Vec<f64>,
     },
+    /// What acts in a step so short cannot be told from the round-off of where the frames are.
+    #[error("at {} s a step of {} s is too short: round-off leaves a residual of {left:.1e}", seconds(*time), seconds(*step))]
+    TooShort {
+        /// When, s.
+        time: f64,
+        /// The step, s.
+        step: f64,
+        /// The residual that round-off leaves.
+        left: f64,
+    },
 }
 
 impl StepFailure {
     /// The same of a longer step, which began before.
     pub(super) fn in_step(mut self, began: f64, seconds: f64) -> Self {
-        let (Self::NotConverged { time, step, .. } | Self::Singular { time, step, .. }) = &mut self;
+        let (Self::NotConverged { time, step, .. }
+        | Self::Singular { time, step, .. }
+        | Self::TooShort { time, step, .. }) = &mut self;
         (*time, *step) = (began, seconds);
         self
     }
+}
+
+/// A time to six digits.
+fn seconds(time: f64) -> String {
+    let digits = format!("{time:.5e}");
+    digits.parse().map_or(digits, |time: f64| format!("{time:?}"))
 }
 
 fn written(history: &[f64]) -> String {
@@ -69,8 +90,8 @@ pub enum SimulationError {
         /// What it must be.
         wanted: &'static str,
     },
-    /// Only one method has another inside by which its error is known.
-    #[error("steps are chosen by their error with \"sdirk4\" only, not with \"{0}\"")]
+    /// Two methods have another inside by which their error is known.
+    #[error("steps are chosen by their error with \"sdirk4\" and \"tr_bdf2\" only, not with \"{0}\"")]
     NoErrorOf(&'static str),
     /// The midpoint rule is for rods alone.
     #[error(
@@ -118,8 +139,14 @@ pub enum SimulationError {
         reason: Box<SolveFailure>,
     },
     /// Rods and bodies that are tied together do not come to rest.
-    #[error("no equilibrium to start from was found: {0}")]
-    NoRest(StepFailure),
+    #[error(
+        "no equilibrium to start from was found, and what nothing holds has none: start at rest, or hold it; the residuals of the last step were {}",
+        written(history)
+    )]
+    NoRest {
+        /// The residuals of the last step towards it.
+        history: Vec<f64>,
+    },
 }
 
 impl SimulationError {

@@ -16,10 +16,10 @@
 pub enum Integrator {
     /// Backward Euler, of order 1: it takes energy out of all that is faster than a few steps.
     ImplicitEuler,
-    /// Backward differences of order 2. The first step, and one after a step in pieces, is one of [`Integrator::Sdirk4`].
+    /// Backward differences of order 2. The first step, and one after a step in pieces, is one of [`Integrator::TrBdf2`].
     Bdf2,
     /// The generalised-α method of order 2 for equations of the first order (Jansen, Whiting & Hulbert 2000), in canonical coordinates about each
-    /// step's beginning. The first step, and one after a step in pieces, is one of [`Integrator::Sdirk4`].
+    /// step's beginning. The first step, and one after a step in pieces, is one of [`Integrator::TrBdf2`].
     GeneralizedAlpha {
         /// What is left after a step of a motion that is much faster, from 0 to 1: the spectral radius `ρ∞`. Where rods that do not stretch turn fast, errors
         /// of their wrenches grow with one near 1 (with 0.8 at 0.03 rad a step, with 0.5 not at 0.05), and steps fail.
@@ -29,8 +29,12 @@ pub enum Integrator {
     /// without bodies and hinges, and turns of less than half a circle a step.
     Midpoint,
     /// A singly diagonally implicit Runge–Kutta method of order 4, L-stable, with an explicit stage and five implicit ones: ESDIRK4(3)6L\[2\]SA of Kennedy &
-    /// Carpenter (2003). Of an order between 3 and 4 for viscous rods, and of order 2 for rods that do not stretch where they turn.
+    /// Carpenter (2003). Of an order between 3 and 4 for viscous rods. Rods that do not stretch should hardly turn: where they do it is of order 2, and gains
+    /// energy, which what is not damped keeps.
     Sdirk4,
+    /// Half a step of the trapezoidal rule and of backward differences of order 2 through its ends, as a Runge–Kutta method (Hosea & Shampine 1996): of order 2,
+    /// L-stable, and it looks back on no step before.
+    TrBdf2,
 }
 
 impl Integrator {
@@ -42,6 +46,7 @@ impl Integrator {
             Self::GeneralizedAlpha { .. } => "generalized_alpha",
             Self::Midpoint => "midpoint",
             Self::Sdirk4 => "sdirk4",
+            Self::TrBdf2 => "tr_bdf2",
         }
     }
 }
@@ -70,6 +75,9 @@ pub(super) struct RungeKutta {
     pub diagonal: f64,
     /// What stands before it, row by row.
     pub before: &'static [&'static [f64]],
+    /// By how much the weights of the stages differ from those of another method with the same stages; the order of what that makes of a step.
+    pub error: &'static [f64],
+    pub error_order: f64,
 }
 
 impl RungeKutta {
@@ -85,9 +93,10 @@ impl RungeKutta {
     }
 }
 
-pub(super) const IMPLICIT_EULER: RungeKutta = RungeKutta { explicit: false, diagonal: 1.0, before: &[&[]] };
+pub(super) const IMPLICIT_EULER: RungeKutta =
+    RungeKutta { explicit: false, diagonal: 1.0, before: &[&[]], error: &[], error_order: 0.0 };
 
-/// The implicit part of ARK4(3)6L\[2\]SA (Kennedy & Carpenter 2003, appendix C). Its stages are of order 2, which the explicit one is for: with stages of
+/// The implicit part of ARK4(3)6L\[2\]SA (Kennedy & Carpenter 2003, appendix C), and its method of order 3. Its stages are of order 2, which the explicit one is for: with stages of
 /// order 1 the wrenches of rods that do not stretch would have errors that no shorter step makes smaller (Hairer, Lubich & Roche 1989).
 pub(super) const SDIRK4: RungeKutta = RungeKutta {
     explicit: true,
@@ -104,21 +113,36 @@ pub(super) const SDIRK4: RungeKutta = RungeKutta {
         ],
         &[82889.0 / 524892.0, 0.0, 15625.0 / 83664.0, 69875.0 / 102672.0, -2260.0 / 8211.0],
     ],
+    error: &[
+        82889.0 / 524892.0 - 4586570599.0 / 29645900160.0,
+        0.0,
+        15625.0 / 83664.0 - 178811875.0 / 945068544.0,
+        69875.0 / 102672.0 - 814220225.0 / 1159782912.0,
+        -2260.0 / 8211.0 + 3700637.0 / 11593932.0,
+        0.25 - 61727.0 / 225920.0,
+    ],
+    error_order: 4.0,
 };
 
-/// By how much the weights of the stages differ from those of the method of order 3 with the same stages (same place).
-pub(super) const SDIRK4_ERROR: [f64; 6] = [
-    82889.0 / 524892.0 - 4586570599.0 / 29645900160.0,
-    0.0,
-    15625.0 / 83664.0 - 178811875.0 / 945068544.0,
-    69875.0 / 102672.0 - 814220225.0 / 1159782912.0,
-    -2260.0 / 8211.0 + 3700637.0 / 11593932.0,
-    0.25 - 61727.0 / 225920.0,
-];
+/// Half the root of two.
+const HALF_ROOT: f64 = core::f64::consts::FRAC_1_SQRT_2;
+
+/// The trapezoidal rule and backward differences with one slope matrix for both, and the method of order 3 with the same stages (Hosea & Shampine 1996).
+pub(super) const TR_BDF2: RungeKutta = RungeKutta {
+    explicit: true,
+    diagonal: 1.0 - HALF_ROOT,
+    before: &[&[1.0 - HALF_ROOT], &[0.5 * HALF_ROOT, 0.5 * HALF_ROOT]],
+    error: &[
+        0.5 * HALF_ROOT - (1.0 - 0.5 * HALF_ROOT) / 3.0,
+        0.5 * HALF_ROOT - (1.0 + 1.5 * HALF_ROOT) / 3.0,
+        (1.0 - HALF_ROOT) * (2.0 / 3.0),
+    ],
+    error_order: 3.0,
+};
 
 #[cfg(test)]
 mod tests {
-    use super::{IMPLICIT_EULER, RungeKutta, SDIRK4, SDIRK4_ERROR};
+    use super::{IMPLICIT_EULER, RungeKutta, SDIRK4, TR_BDF2};
     use core::iter::{once, repeat_n};
 
     /// The method's matrix, row by row.
@@ -165,14 +189,17 @@ mod tests {
     fn methods_have_the_order_that_they_are_said_to_have() {
         let weights = |method: &RungeKutta| method.weights().collect::<Vec<_>>();
         assert_eq!(order(&IMPLICIT_EULER, &weights(&IMPLICIT_EULER)), 1);
-        assert_eq!(order(&SDIRK4, &weights(&SDIRK4)), 4);
-        let within: Vec<f64> = SDIRK4.weights().zip(SDIRK4_ERROR).map(|(b, error)| b - error).collect();
-        assert_eq!(order(&SDIRK4, &within), 3);
-        // Stages of order 2: `A c = c²/2`.
-        let a = matrix(&SDIRK4);
-        let c = times(&a, &[1.0; 6]);
-        for (ac, c) in times(&a, &c).iter().zip(&c) {
-            assert!((ac - 0.5 * c * c).abs() < 1e-15, "{ac} {c}");
+        for (method, its, of_other) in [(&SDIRK4, 4, 3), (&TR_BDF2, 2, 3)] {
+            assert_eq!(order(method, &weights(method)), its);
+            let other: Vec<f64> = method.weights().zip(method.error).map(|(b, error)| b - error).collect();
+            assert_eq!(order(method, &other), of_other);
+            assert_eq!(method.error_order, f64::from(its.min(of_other) as u32 + 1));
+            // Stages of order 2: `A c = c²/2`.
+            let a = matrix(method);
+            let c = times(&a, &vec![1.0; a.len()]);
+            for (ac, c) in times(&a, &c).iter().zip(&c) {
+                assert!((ac - 0.5 * c * c).abs() < 1e-15, "{ac} {c}");
+            }
         }
     }
 }

@@ -40,8 +40,8 @@ pub struct Settings {
     pub integrator: Integrator,
     /// How long it is, s; where its error chooses it, how long it is at most.
     pub time_step: f64,
-    /// How far off its method of order 3 a step of [`Integrator::Sdirk4`] may be, in rad and over the longest rod's length. Steps are then as long as that
-    /// allows; otherwise they are all alike.
+    /// How far off the other method in it a step of [`Integrator::Sdirk4`] or [`Integrator::TrBdf2`] may be, in rad and over the longest rod's length. Steps
+    /// are then as long as that allows; otherwise they are all alike.
     pub local_error: Option<f64>,
     /// The residual at which a stage is solved, as that of statics: forces and moments over `EI/L²` and `EI/L` or the largest carried, turns in rad and
     /// shifts over the length. Where round-off of the frames leaves more, as in very short steps, that. A stage's first guess must be a hundred times
@@ -246,6 +246,7 @@ impl Simulation {
         if !state.can_begin() {
             return Err(SimulationError::NotFinite);
         }
+        self.work.ties.put_together(&self.assembly, &mut state.poses.clone())?;
         self.state = state;
         holds::put_as_planned(&mut self.assembly, self.state.time);
         self.weigh();
@@ -305,7 +306,7 @@ fn check(assembly: &Assembly, settings: &Settings) -> Result<(), SimulationError
     setting("the damping of mass", mass_damping, not_negative(mass_damping), "0 or more")?;
     if let Some(error) = settings.local_error {
         setting("the local error", error, positive(error), "greater than 0")?;
-        if integrator != Integrator::Sdirk4 {
+        if !matches!(integrator, Integrator::Sdirk4 | Integrator::TrBdf2) {
             return Err(SimulationError::NoErrorOf(integrator.name()));
         }
     }

@@ -1,7 +1,7 @@
 //! Newton's method for one stage of a step.
 
 use super::stage::{Resistance, Stage};
-use super::{Simulation, StepFailure, Taken};
+use super::{Simulation, State, StepFailure, Taken};
 use crate::assembly::{Assembly, Member, Ties};
 use crate::math::{Pose, SimdLevel, Vec3, Wrench, larger};
 use crate::rod::{Kinematics, NodeInertia};
@@ -11,8 +11,11 @@ use core::ops::Range;
 /// Round-off of a frame, with room, over that of a number.
 const ROUND_OFF: f64 = 4.0;
 
-/// A stage of bounded cost that leaves more than this over is of no use.
+/// A stage of bounded cost that leaves more than this over is of no use, nor is one where round-off does.
 const USABLE: f64 = 0.1;
+
+/// A stage of [`Simulation::shortest`] leaves so much over for round-off.
+const SURE: f64 = 1e-3;
 
 /// After a step of no more than this, rad and over half the length, slopes are kept.
 const NEAR: f64 = 1e-2;
@@ -115,19 +118,22 @@ fn lent(problem: &Problem, of_rate: f64, (weight, mass): (f64, f64)) -> f64 {
     rigid_compliance(1.0 + problem.load_size() + (weight + inertia) / scale.force)
 }
 
-/// The residual that round-off of the frames leaves: places and turns are known to so much, and rates of rates are that over the time squared.
-fn round_off(problem: &Problem, poses: &[Pose], of_rate: f64) -> f64 {
+/// The residual that round-off of the frames leaves, times the square of how much a rate counts: places and turns are known to so much, and rates of rates
+/// are that over the time squared.
+fn round_off(problem: &Problem, poses: &[Pose], wrenches: &[Wrench]) -> f64 {
     let scale = problem.rod.scale();
     let far = poses.iter().fold(0.0, |far: f64, pose| far.max(pose.position.max_abs()));
+    let carries = |w: &Wrench| (w.linear.max_abs() / scale.force).max(w.angular.max_abs() / scale.moment);
+    let carried = wrenches.iter().map(carries).fold(1.0, f64::max);
     let of =
         |node: &NodeInertia| (node.mass * far / scale.force).max(node.rotational.max_abs() / scale.moment);
     let most = problem.rod.node_inertia().iter().map(of).fold(0.0, f64::max);
-    ROUND_OFF * f64::EPSILON * most / (of_rate * of_rate)
+    ROUND_OFF * f64::EPSILON * most / carried
 }
 
 impl Group {
     /// Takes the frames that all are guessed to have, and what the elements carry.
-    fn guess(&mut self, assembly: &Assembly, ties: &Ties, poses: &mut [Pose], state: &super::State) {
+    fn guess(&mut self, assembly: &Assembly, ties: &Ties, poses: &mut [Pose], state: &State) {
         for system in &mut self.rods {
             for (node, support) in assembly.strands[system.rod].problem.supports() {
                 let pose = &mut poses[system.first + node];
@@ -138,6 +144,15 @@ impl Group {
         }
         self.meet(assembly, ties, poses);
         self.take_frames(poses);
+    }
+
+    /// The residual that round-off leaves of its rods, times the square of how much a rate counts, s².
+    fn round_off(&self, assembly: &Assembly, State { poses, wrenches, .. }: &State) -> f64 {
+        let of = |system: &RodSystem| {
+            let problem = &assembly.strands[system.rod].problem;
+            round_off(problem, &poses[system.nodes()], &wrenches[system.elements()])
+        };
+        self.rods.iter().map(of).fold(0.0, f64::max)
     }
 
     /// Gives the rods their nodes' frames.
@@ -322,15 +337,21 @@ impl Simulation {
         }
     }
 
+    /// In the shortest stage of which round-off leaves little over, how much a rate counts, s.
+    pub(super) fn shortest(&self) -> f64 {
+        let of = |group: &Group| group.round_off(&self.assembly, &self.state);
+        (self.work.groups.iter().map(of).fold(0.0, f64::max) / SURE).sqrt()
+    }
+
     fn solve_group(&mut self, group: usize) -> Result<Taken, StepFailure> {
         let Self { assembly, settings, state, work, .. } = self;
         let group = &mut work.groups[group];
         let (ties, stage, level) = (&work.ties, &mut work.stage, work.level);
         group.guess(assembly, ties, &mut work.poses, state);
-        let floors = group.rods.iter().map(|system| {
-            round_off(&assembly.strands[system.rod].problem, &system.record.poses, stage.of_rate)
-        });
-        let floor = floors.fold(0.0, f64::max);
+        let floor = group.round_off(assembly, state) / (stage.of_rate * stage.of_rate);
+        if floor > USABLE {
+            return Err(StepFailure::TooShort { time: state.time, step: work.step, left: floor });
+        }
         let tolerance = settings.tolerance.max(floor);
         let mut given = Given {
             assembly,

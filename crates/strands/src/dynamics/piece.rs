@@ -2,12 +2,14 @@
 
 use super::energy::Power;
 use super::holds::Held;
-use super::integrator::{GeneralizedAlpha, IMPLICIT_EULER, Integrator, RungeKutta, SDIRK4};
+use super::integrator::{GeneralizedAlpha, IMPLICIT_EULER, Integrator, RungeKutta, SDIRK4, TR_BDF2};
 use super::{Means, Past, Simulation, StepFailure, Taken, Work};
 use crate::math::{Pose, Vec6, Wrench};
 
-/// Where a method needs rates to begin with, two steps of backward Euler's method find them, each this part of a step long.
+/// Where a method needs rates to begin with, two steps of backward Euler's method find them, each this part of a step long, or more where round-off asks for it,
+/// and no more than that.
 const BEGINNING: f64 = 1e-4;
+const LONGEST_BEGINNING: f64 = 0.25;
 
 /// A part of a step: where it begins and how long it is, over the whole.
 #[derive(Clone, Copy)]
@@ -27,11 +29,12 @@ impl Simulation {
     ) -> Result<Taken, StepFailure> {
         match integrator {
             Integrator::ImplicitEuler => self.runge_kutta(&IMPLICIT_EULER, held, piece),
-            Integrator::Sdirk4 => self.sdirk4(held, piece),
+            Integrator::Sdirk4 => self.with_rates(&SDIRK4, held, piece),
+            Integrator::TrBdf2 => self.with_rates(&TR_BDF2, held, piece),
             Integrator::Midpoint => self.midpoint(held, piece.begin + 0.5 * piece.length, piece.length),
             Integrator::Bdf2 | Integrator::GeneralizedAlpha { .. } if !self.looks_back(integrator) => {
                 let (poses, momenta) = (self.state.poses.clone(), self.state.momenta.clone());
-                let taken = self.sdirk4(held, piece)?;
+                let taken = self.with_rates(&TR_BDF2, held, piece)?;
                 self.look_back_on(integrator, poses, momenta);
                 Ok(taken)
             }
@@ -49,7 +52,7 @@ impl Simulation {
         }
     }
 
-    /// After a step of the method of order 4 gives the integrator what it looks back on.
+    /// After a step of another method gives the integrator what it looks back on.
     pub(super) fn look_back_on(&mut self, integrator: Integrator, poses: Vec<Pose>, momenta: Vec<Wrench>) {
         let Self { state, work, .. } = self;
         match integrator {
@@ -73,35 +76,38 @@ impl Simulation {
                     strain: mean(strain, strain_rates),
                 });
             }
-            Integrator::ImplicitEuler | Integrator::Midpoint | Integrator::Sdirk4 => {}
+            Integrator::ImplicitEuler | Integrator::Midpoint | Integrator::Sdirk4 | Integrator::TrBdf2 => {}
         }
     }
 
-    /// A piece of a step of the method of order 4, which begins with the rates that the last one ended with. Where it fails the state is not that before it.
-    fn sdirk4(&mut self, held: &Held, piece: Piece) -> Result<Taken, StepFailure> {
+    /// A piece of a step of a method with an explicit stage, which begins with the rates that the last one ended with. Where it fails the state is not that
+    /// before it.
+    fn with_rates(&mut self, method: &RungeKutta, held: &Held, piece: Piece) -> Result<Taken, StepFailure> {
         if matches!(self.state.past, Past::Rates { .. }) {
-            return self.with_rates(held, piece);
+            return self.going_on(method, held, piece);
         }
         // Velocities may jump now, where a support begins to move, and what holds it then exerts nearly an impulse: that is what the first short step is
         // for. The second one has what acts thereafter.
         let began = self.state.time;
         let (mut taken, mut rest) = (Taken::default(), piece);
+        let sure = self.shortest() / (self.work.step * piece.length);
+        let part = BEGINNING.max(sure).min(LONGEST_BEGINNING);
         let mut all = || {
             for _ in 0..2 {
-                let short = Piece { begin: rest.begin, length: BEGINNING * piece.length };
+                let short = Piece { begin: rest.begin, length: part * piece.length };
                 taken.add(self.runge_kutta(&IMPLICIT_EULER, held, short)?);
                 rest = Piece { begin: rest.begin + short.length, length: rest.length - short.length };
             }
             self.remember_rates();
-            taken.add(self.with_rates(held, rest)?);
+            taken.add(self.going_on(method, held, rest)?);
             Ok(taken)
         };
         let made = all();
         made.map_err(|failure: StepFailure| failure.in_step(began, self.work.step))
     }
 
-    fn with_rates(&mut self, held: &Held, piece: Piece) -> Result<Taken, StepFailure> {
-        let taken = self.runge_kutta(&SDIRK4, held, piece)?;
+    fn going_on(&mut self, method: &RungeKutta, held: &Held, piece: Piece) -> Result<Taken, StepFailure> {
+        let taken = self.runge_kutta(method, held, piece)?;
         self.remember_rates();
         Ok(taken)
     }

@@ -1,7 +1,7 @@
 //! Where a simulation starts.
 
 use super::holds::put_as_planned;
-use super::{Integrator, Past, Power, Settings, Simulation, SimulationError, State, StepFailure};
+use super::{Integrator, Past, Power, Settings, Simulation, SimulationError, State};
 use crate::math::{Vec6, Wrench, larger};
 use crate::statics::{self, Method, Scheme, Workspace, meet};
 
@@ -117,11 +117,10 @@ impl Simulation {
         let last = self.work.step;
         let State { time, dissipated, worked, next_step, .. } = &mut self.state;
         (*time, *dissipated, *worked, *next_step) = (0.0, 0.0, 0.0, self.settings.time_step);
-        if last <= LONG * slowest && outcome.is_ok() {
-            outcome =
-                Err(StepFailure::NotConverged { time: 0.0, step: last, history: self.work.history.clone() });
+        if last <= LONG * slowest || outcome.is_err() {
+            return Err(SimulationError::NoRest { history: self.work.history.clone() });
         }
-        outcome.map_err(SimulationError::NoRest)
+        Ok(())
     }
 
     /// Stops all motion.

@@ -74,7 +74,7 @@ impl Simulation {
         }
         // A piece cannot look back on steps of another length, nor the next step on one that it does not follow: it would gain energy.
         let alone = match integrator {
-            Integrator::Bdf2 | Integrator::GeneralizedAlpha { .. } => Integrator::Sdirk4,
+            Integrator::Bdf2 | Integrator::GeneralizedAlpha { .. } => Integrator::TrBdf2,
             other => other,
         };
         for pieces in PIECES {
@@ -116,7 +116,9 @@ impl Simulation {
     fn damped(&mut self, held: &Held, before: State) -> Result<Step, StepFailure> {
         let taken = self.piece(Integrator::ImplicitEuler, held, WHOLE)?;
         match self.settings.integrator {
-            Integrator::GeneralizedAlpha { .. } | Integrator::Sdirk4 => self.remember_rates(),
+            Integrator::GeneralizedAlpha { .. } | Integrator::Sdirk4 | Integrator::TrBdf2 => {
+                self.remember_rates();
+            }
             other => self.look_back_on(other, before.poses, before.momenta),
         }
         Ok(self.report(taken, self.work.step, 2))

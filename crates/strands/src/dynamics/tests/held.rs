@@ -198,18 +198,21 @@ fn steps_are_as_long_as_their_error_allows() {
     };
     let equal = Settings { integrator: Integrator::Sdirk4, time_step: 5e-5, ..Settings::default() };
     let (exact, _) = tip(equal);
-    let mut last = 0;
-    for allowed in [1e-3, 1e-4, 1e-5, 1e-6] {
-        let (chosen, tries) = tip(Settings { time_step: 0.1, local_error: Some(allowed), ..equal });
-        let error = (chosen - exact).norm() / 0.1;
-        // The errors of all steps add up at most.
-        assert!(error < tries as f64 * allowed, "{allowed:e}: {error:e} in {tries} steps");
-        assert!(tries > last, "{allowed:e}: {tries} steps");
-        last = tries;
+    for integrator in [Integrator::Sdirk4, Integrator::TrBdf2] {
+        let mut last = 0;
+        for allowed in [1e-3, 1e-4, 1e-5, 1e-6] {
+            let chosen = Settings { integrator, time_step: 0.1, local_error: Some(allowed), ..equal };
+            let (chosen, tries) = tip(chosen);
+            let error = (chosen - exact).norm() / 0.1;
+            // The errors of all steps add up at most.
+            assert!(error < tries as f64 * allowed, "{allowed:e}: {error:e} in {tries} steps");
+            assert!(tries > last, "{allowed:e}: {tries} steps");
+            last = tries;
+        }
     }
     let refused = Settings { integrator: Integrator::Bdf2, local_error: Some(1e-5), ..equal };
     let refused = Simulation::new(heavy(suture(5)), refused, Start::Rest).unwrap_err();
-    assert!(refused.to_string().contains("\"sdirk4\" only"), "{refused}");
+    assert!(refused.to_string().contains("\"tr_bdf2\" only"), "{refused}");
 }
 
 #[test]

@@ -39,8 +39,14 @@ fn simulated(problem: Problem, integrator: Integrator, time_step: f64, start: St
 }
 
 const ALPHA: Integrator = Integrator::GeneralizedAlpha { spectral_radius: 0.8 };
-const ALL: [Integrator; 5] =
-    [Integrator::ImplicitEuler, Integrator::Bdf2, ALPHA, Integrator::Midpoint, Integrator::Sdirk4];
+const ALL: [Integrator; 6] = [
+    Integrator::ImplicitEuler,
+    Integrator::Bdf2,
+    ALPHA,
+    Integrator::Midpoint,
+    Integrator::Sdirk4,
+    Integrator::TrBdf2,
+];
 
 #[test]
 fn integrators_have_their_order() {
@@ -85,6 +91,7 @@ fn integrators_have_their_order() {
             (Integrator::Bdf2, 2.0, 40),
             (ALPHA, 2.0, 40),
             (Integrator::Midpoint, 2.0, 40),
+            (Integrator::TrBdf2, 2.0, 40),
             // The rates of strains are differences of places within a step, which cost a method of order 4 up to one of them.
             (Integrator::Sdirk4, if viscous > 0.0 { 3.5 } else { 4.0 }, 12),
         ] {

@@ -231,7 +231,7 @@ fn a_ball_on_a_hinge_swings_as_a_pendulum() {
 #[test]
 fn a_ball_on_a_thread_swings_as_a_pendulum() {
     let nylon = Material::from_poisson(1e9, 0.4, 1140.0).unwrap();
-    for integrator in [Integrator::Bdf2, Integrator::Sdirk4] {
+    for integrator in [Integrator::Bdf2, Integrator::Sdirk4, Integrator::TrBdf2] {
         let rod = rod(1.0, 1e-4, nylon, Kinematics::Kirchhoff, 20);
         let gravity = Vec3::new(0.5_f64.sin(), 0.0, 0.5_f64.cos()) * 9.81;
         let loads = NodalLoads::none(&rod).with_gravity(&rod, gravity);
@@ -256,6 +256,38 @@ fn a_ball_on_a_thread_swings_as_a_pendulum() {
         assert!(aside < 3e-3, "{}: {aside} at {at:?}", integrator.name());
         assert!(gained.abs() < 1e-4, "{}: {gained} of {energy:?}", integrator.name());
     }
+}
+
+/// A thread of a thousandth of the mass of what hangs from it: its waves are as fast as the steps, and nothing damps them.
+#[test]
+fn a_thread_of_hardly_any_mass_gains_no_energy() {
+    let light = Material::from_poisson(1e9, 0.4, 1.0).unwrap();
+    let swing = |settings: Settings| {
+        let rod = rod(1.0, 1e-4, light, Kinematics::Kirchhoff, 20);
+        let gravity = Vec3::Z * 9.81;
+        let loads = NodalLoads::none(&rod).with_gravity(&rod, gravity);
+        let start = Support::pinned(rod.description().base);
+        let mut assembly = Assembly::from(Problem { loads, start, ..Problem::cantilever(rod) });
+        let (weight, place) = (ball(8000.0, 1e-3), Pose { position: Vec3::Z, ..Pose::IDENTITY });
+        assembly.bodies.push(Body::new(weight, place).with_gravity(gravity));
+        tie(&mut assembly, JointKind::Ball, node(0, 20), Member::Body(0), Vec3::ZERO);
+        let mut simulation = Simulation::new(assembly, settings, Start::Rest).unwrap();
+        let sideways = Vec6::new(Vec3::ZERO, Vec3::X * 0.3);
+        let mut velocities = [Vec6::ZERO; 22];
+        velocities[20..].fill(sideways);
+        simulation.set_velocities(&velocities);
+        let began = simulation.energy();
+        simulation.advance(3.5).unwrap();
+        let gained = (simulation.energy().total() - began.total()) / began.kinetic;
+        assert!((-2e-3..0.0).contains(&gained), "{}: {gained:e}", settings.integrator.name());
+    };
+    for integrator in
+        [Integrator::Bdf2, Integrator::TrBdf2, Integrator::GeneralizedAlpha { spectral_radius: 0.5 }]
+    {
+        swing(Settings { integrator, ..Settings::default() });
+    }
+    let chosen = Settings { integrator: Integrator::TrBdf2, ..Settings::default() };
+    swing(Settings { local_error: Some(1e-4), time_step: 0.02, ..chosen });
 }
 
 /// A net of rods along x and y, tied where they cross, held at its corners.
