@@ -106,7 +106,8 @@ pub struct Solve {
 #[derive(Debug, Args)]
 #[command(after_help = "\
 Rods move on the mesh of the scene, tied as its joints say. The scene's [dynamics] says how, and what it leaves out is: integrator bdf2 (with tolerance
-sdirk4, or tr_bdf2 where a rod does not stretch), time_step 1e-3 s, duration 1 s, output_rate 60 frames a second, start in equilibrium. `--set dynamics.time_step=5e-4` changes any of them.
+sdirk4, or tr_bdf2 where a rod does not stretch), time_step 1e-3 s, duration 1 s, output_rate 60 frames a second, start in equilibrium.
+`--set dynamics.time_step=5e-4` changes any of them.
 
 A .pvd comes with a folder beside it, a .vtp a frame and rod. In .glb and .usda the rods move when they are played.
 

@@ -91,7 +91,7 @@ fn what_cannot_be_simulated_is_said() {
     for (set, said) in [
         ("dynamics.start=\"there\"", "give \"equilibrium\", \"rest\" or the file of a saved state"),
         ("dynamics.start=\"cantilever.toml\"", "not the state of a simulation"),
-        ("dynamics={integrator=\"bdf2\", tolerance=1e-3}", "with \"sdirk4\" only, not with \"bdf2\""),
+        ("dynamics={integrator=\"bdf2\", tolerance=1e-3}", "with \"sdirk4\" and \"tr_bdf2\" only, not with \"bdf2\""),
         ("solver.order=4", "rod `beam`: only rods of order 2"),
         ("materials.rubber.density=0.0", "rod `beam` has no mass"),
     ] {
