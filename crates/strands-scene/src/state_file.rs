@@ -10,8 +10,11 @@ use thiserror::Error;
 
 use crate::Model;
 
-/// The format that is written and read. In the first one angular momenta were about a place of all.
-const FORMAT: u32 = 2;
+/// The format that is written and read. In the first one angular momenta were about a place of all, and the second did not say what moves.
+const FORMAT: u32 = 3;
+
+/// Lengths and masses that differ by less than this part are the same.
+const SAME: f64 = 1e-12;
 
 /// What a state's file is not.
 #[derive(Debug, Error)]
@@ -56,7 +59,13 @@ struct Written {
     past: WrittenPast,
 }
 
-#[derive(PartialEq, Serialize, Deserialize)]
+/// All that is read before the format is known.
+#[derive(Deserialize)]
+struct Headed {
+    format: u32,
+}
+
+#[derive(Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 struct WrittenRod {
     elements: usize,
@@ -64,22 +73,38 @@ struct WrittenRod {
     mass: f64,
 }
 
-#[derive(PartialEq, Serialize, Deserialize)]
+#[derive(Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 struct WrittenBody {
     mass: f64,
 }
 
+impl PartialEq for WrittenRod {
+    fn eq(&self, other: &Self) -> bool {
+        self.elements == other.elements && near(self.length, other.length) && near(self.mass, other.mass)
+    }
+}
+
+impl PartialEq for WrittenBody {
+    fn eq(&self, other: &Self) -> bool {
+        near(self.mass, other.mass)
+    }
+}
+
+fn near(a: f64, b: f64) -> bool {
+    (a - b).abs() <= SAME * a.abs().max(b.abs())
+}
+
 impl fmt::Display for WrittenRod {
     fn fmt(&self, f: &mut fmt::Formatter) -> fmt::Result {
         let Self { elements, length, mass } = self;
-        write!(f, "a rod of {elements} elements, {length} m and {mass:.3e} kg")
+        write!(f, "a rod of {elements} elements, {length:?} m and {mass:?} kg")
     }
 }
 
 impl fmt::Display for WrittenBody {
     fn fmt(&self, f: &mut fmt::Formatter) -> fmt::Result {
-        write!(f, "a body of {:.3e} kg", self.mass)
+        write!(f, "a body of {:?} kg", self.mass)
     }
 }
 
@@ -139,10 +164,11 @@ pub fn state_json(model: &Model, state: &State) -> String {
 /// # Errors
 /// Where it is not the text of a state, or of one of other rods and bodies.
 pub fn read_state(model: &Model, text: &str) -> Result<State, StateError> {
-    let written: Written = serde_json::from_str(text)?;
-    if written.format != FORMAT {
-        return Err(StateError::Format(written.format));
+    let Headed { format } = serde_json::from_str(text)?;
+    if format != FORMAT {
+        return Err(StateError::Format(format));
     }
+    let written: Written = serde_json::from_str(text)?;
     let (rods, bodies) = what_moves(model);
     same(&written.rods, &rods)?;
     same(&written.bodies, &bodies)?;
@@ -182,7 +208,7 @@ fn what_moves(model: &Model) -> (Vec<WrittenRod>, Vec<WrittenBody>) {
     (rods.collect(), bodies.collect())
 }
 
-/// Refuses those that are not the same, to the bit.
+/// Refuses those that are not the same.
 fn same<T: PartialEq + fmt::Display>(there: &[T], here: &[T]) -> Result<(), StateError> {
     let said = |of: Option<&T>| of.map_or_else(|| "none".to_owned(), T::to_string);
     for k in 0..there.len().max(here.len()) {

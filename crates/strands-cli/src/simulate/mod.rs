@@ -188,7 +188,10 @@ fn tell_the_end(plan: &Plan, simulation: &Simulation, began: f64) {
 /// An error with the rod's name in place of its number.
 fn with_names(model: &Model, error: &SimulationError) -> String {
     let text = match (error, &model.dynamics.start) {
-        (SimulationError::Unfit { .. } | SimulationError::NotFinite, Some(file)) => {
+        (
+            SimulationError::Unfit { .. } | SimulationError::NotFinite | SimulationError::Assembly(_),
+            Some(file),
+        ) if !matches!(file.as_str(), "rest" | "equilibrium") => {
             format!("dynamics.start: {file}: {error}")
         }
         _ => error.to_string(),
@@ -209,9 +212,11 @@ fn stepped(model: &Model, plan: &Plan, simulation: &mut Simulation, bar: &Progre
     // A run that goes on has its frames at the same times, to the bit, as one that was not ended.
     let before = start / plan.every;
     let before = if (before - before.round()).abs() < SAME_TIME { before.round() } else { before };
+    let last = (before + ((end - start) / plan.every).round()) * plan.every;
+    let end = if (last - end).abs() < SAME_TIME * plan.every { last } else { end };
     while !simulation.has_come_to(end) && run.end == End::Finished {
         let due = (before + run.frames.len() as f64) * plan.every;
-        let due = if due < end + SAME_TIME * plan.every { due } else { end };
+        let due = due.min(end);
         let began = Instant::now();
         let step = match simulation.step_towards(due) {
             Ok(step) => step,
@@ -252,9 +257,11 @@ const SHARP: f64 = 1.0;
 /// What may help where a step cannot be made.
 fn mend(model: &Model, simulation: &Simulation, failure: &StepFailure) -> String {
     let (assembly, state) = (simulation.assembly(), simulation.state());
+    let [longer, shorter] = match model.dynamics.tolerance {
+        Some(_) => ["a larger tolerance", "a smaller tolerance"],
+        None => ["a longer time_step", "a shorter time_step"],
+    };
     if matches!(failure, StepFailure::TooShort { .. }) {
-        let longer =
-            if model.dynamics.tolerance.is_some() { "a larger tolerance" } else { "a longer time_step" };
         return format!("take {longer}");
     }
     let bend = |rod: usize| {
@@ -280,23 +287,24 @@ fn mend(model: &Model, simulation: &Simulation, failure: &StepFailure) -> String
         }
         let first = assembly.nodes(number).start;
         let moved = |(node, support): (usize, &Support)| {
-            let held = support.fixed[3..].iter().any(|fixed| *fixed);
-            if held { (support.pose.position - state.poses[first + node].position).norm() } else { 0.0 }
+            let apart = support.pose.position - state.poses[first + node].position;
+            let along =
+                (0..3).filter(|k| support.fixed[3 + k]).map(|k| support.shift_axes.cols[k].dot(apart).abs());
+            along.fold(0.0, f64::max)
         };
-        let (far, element) =
-            (strand.problem.supports().map(moved).fold(0.0, f64::max), strand.problem.rod.element_length(0));
+        let far = strand.problem.supports().map(moved).fold(0.0, f64::max);
+        let elements = (0..strand.problem.rod.elements()).map(|e| strand.problem.rod.element_length(e));
+        let element = elements.fold(f64::INFINITY, f64::min);
         if far > element {
             let [far, element] = [far, element].map(|metres| engineering(metres, "m"));
             return format!(
-                "a support of rod `{}` moves by {far} in that step, and an element is {element} long: take a shorter time_step",
+                "a support of rod `{}` moves by {far} in that step, and an element is {element} long: take {shorter}",
                 rod.name
             );
         }
     }
     if let Some(iterations) = model.dynamics.newton_iterations {
-        return format!(
-            "newton_iterations = {iterations} may be too few, or a shorter time_step may be solved"
-        );
+        return format!("newton_iterations = {iterations} may be too few, or {shorter} may be solved");
     }
     match inextensible(model) {
         Some(rod) if simulation.settings().integrator == Integrator::Sdirk4 => {
@@ -306,9 +314,9 @@ fn mend(model: &Model, simulation: &Simulation, failure: &StepFailure) -> String
             )
         }
         Some(rod) => {
-            format!("a longer time_step may be solved, or kinematics = \"cosserat\" for rod `{}`", rod.name)
+            format!("{longer} may be solved, or kinematics = \"cosserat\" for rod `{}`", rod.name)
         }
-        None => "a shorter time_step may be solved".to_owned(),
+        None => format!("{shorter} may be solved"),
     }
 }
 

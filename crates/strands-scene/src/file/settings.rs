@@ -88,7 +88,7 @@ pub struct WindFile {
 #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields, expecting = "a table")]
 pub struct DynamicsFile {
-    /// The time integrator. Default "bdf2".
+    /// The time integrator. Default "bdf2"; with `tolerance` "sdirk4", or "tr_bdf2" where a rod does not stretch.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub integrator: Option<IntegratorName>,
     /// What is left after a step of a motion that is much faster, from 0 to 1; with "generalized_alpha" only. Default 0.5.
@@ -97,7 +97,7 @@ pub struct DynamicsFile {
     /// The time step, s.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub time_step: Option<f64>,
-    /// The local error that the time step is chosen for, in place of `time_step`.
+    /// The local error that the time step is chosen for, in place of `time_step`, with "sdirk4" or "tr_bdf2".
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub tolerance: Option<f64>,
     /// A set number of Newton iterations for each stage of a step, for steps of bounded cost. Default: as many as the tolerance takes.

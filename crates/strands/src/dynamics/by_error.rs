@@ -1,7 +1,7 @@
 //! Steps that are as long as their error allows.
 
-use super::integrator::{RungeKutta, SDIRK4, TR_BDF2};
-use super::{Integrator, Simulation, Step, StepFailure, Taken};
+use super::integrator::{RungeKutta, SDIRK4};
+use super::{Simulation, Step, StepFailure, Taken};
 use crate::math::{Vec6, larger};
 
 /// A step is so much shorter than its error would allow, and never so many times longer or shorter than the last.
@@ -17,8 +17,8 @@ impl Simulation {
     /// Makes a step as long as its error allows, by a method and the other one in it.
     pub(super) fn step_by_error(&mut self, allowed: f64, longest: f64) -> Result<Step, StepFailure> {
         let (integrator, before) = (self.settings.integrator, self.state.clone());
-        let method = if integrator == Integrator::TrBdf2 { &TR_BDF2 } else { &SDIRK4 };
-        let mut iterations = 0;
+        let method = integrator.embedding().unwrap_or(&SDIRK4);
+        let (mut iterations, mut cause) = (0, None);
         let longest = longest.min(self.settings.time_step);
         // One that is nearly over is divided evenly.
         let mut step = if before.next_step < longest && 2.0 * before.next_step > longest {
@@ -48,14 +48,15 @@ impl Simulation {
                         || matches!(failure, StepFailure::TooShort { .. }) =>
                 {
                     self.state = before;
-                    return Err(failure);
+                    return Err(cause.unwrap_or(failure));
                 }
                 Ok(taken) if step < SHORTEST * self.settings.time_step => {
                     self.state.clone_from(&before);
                     let history = vec![taken.residual, error];
                     return Err(StepFailure::NotConverged { time: before.time, step, history });
                 }
-                made => iterations += made.map_or(0, |taken| taken.iterations),
+                Ok(taken) => (iterations, cause) = (iterations + taken.iterations, None),
+                Err(failure) => cause = Some(failure),
             }
             self.state.clone_from(&before);
             step *= grows.min(AGAIN);

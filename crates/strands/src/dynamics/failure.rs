@@ -95,7 +95,7 @@ pub enum SimulationError {
     NoErrorOf(&'static str),
     /// The midpoint rule is for rods alone.
     #[error(
-        "the midpoint rule is for rods without bodies and hinges: take another integrator, \"sdirk4\" or \"bdf2\""
+        "the midpoint rule is for rods without bodies and hinges: take another integrator, \"bdf2\" or \"tr_bdf2\""
     )]
     NoMidpoint,
     /// The midpoint rule keeps energy where its steps are solved only.
@@ -140,7 +140,7 @@ pub enum SimulationError {
     },
     /// Rods and bodies that are tied together do not come to rest.
     #[error(
-        "no equilibrium to start from was found, and what nothing holds has none: start at rest, or hold it; the residuals of the last step were {}",
+        "no equilibrium to start from was found (residuals {}): if nothing holds what moves there is none, and start = \"rest\" is the way",
         written(history)
     )]
     NoRest {

@@ -51,6 +51,17 @@ impl Integrator {
     }
 }
 
+impl Integrator {
+    /// The method by which the error of its steps is known, where there is one.
+    pub(super) fn embedding(self) -> Option<&'static RungeKutta> {
+        match self {
+            Self::Sdirk4 => Some(&SDIRK4),
+            Self::TrBdf2 => Some(&TR_BDF2),
+            _ => None,
+        }
+    }
+}
+
 /// Numbers of the generalised-α method: the `α_m` and `α_f` of Jansen, Whiting & Hulbert are one less these.
 pub(super) struct GeneralizedAlpha {
     pub alpha_m: f64,

@@ -44,8 +44,8 @@ pub struct Settings {
     /// are then as long as that allows; otherwise they are all alike.
     pub local_error: Option<f64>,
     /// The residual at which a stage is solved, as that of statics: forces and moments over `EI/L²` and `EI/L` or the largest carried, turns in rad and
-    /// shifts over the length. Where round-off of the frames leaves more, as in very short steps, that. A stage's first guess must be a hundred times
-    /// better to be its solution.
+    /// shifts over the length. Where round-off of the frames leaves more, as in very short steps, that, up to a tenth. A stage's first guess must be a hundred
+    /// times better to be its solution.
     pub tolerance: f64,
     /// How many Newton iterations a stage may take.
     pub max_iterations: usize,
@@ -237,7 +237,7 @@ impl Simulation {
     /// Goes to a state of this simulation, or of another one of the same assembly.
     ///
     /// # Errors
-    /// Where it is of another assembly, or no step can begin from it.
+    /// Where it is of another assembly, by its numbers or by where joints tie, or no step can begin from it.
     pub fn restore(&mut self, state: State) -> Result<(), SimulationError> {
         let [got, needed] = [&state, &self.state].map(|state| [state.poses.len(), state.wrenches.len()]);
         if !state.fits(needed) {
@@ -306,7 +306,7 @@ fn check(assembly: &Assembly, settings: &Settings) -> Result<(), SimulationError
     setting("the damping of mass", mass_damping, not_negative(mass_damping), "0 or more")?;
     if let Some(error) = settings.local_error {
         setting("the local error", error, positive(error), "greater than 0")?;
-        if !matches!(integrator, Integrator::Sdirk4 | Integrator::TrBdf2) {
+        if integrator.embedding().is_none() {
             return Err(SimulationError::NoErrorOf(integrator.name()));
         }
     }

@@ -11,10 +11,10 @@ use core::ops::Range;
 /// Round-off of a frame, with room, over that of a number.
 const ROUND_OFF: f64 = 4.0;
 
-/// A stage of bounded cost that leaves more than this over is of no use, nor is one where round-off does.
+/// A stage of bounded cost that leaves more than this over is of no use, nor is any of which round-off leaves more.
 const USABLE: f64 = 0.1;
 
-/// A stage of [`Simulation::shortest`] leaves so much over for round-off.
+/// A stage of [`Simulation::shortest_stage`] leaves so much over for round-off.
 const SURE: f64 = 1e-3;
 
 /// After a step of no more than this, rad and over half the length, slopes are kept.
@@ -120,15 +120,20 @@ fn lent(problem: &Problem, of_rate: f64, (weight, mass): (f64, f64)) -> f64 {
 
 /// The residual that round-off of the frames leaves, times the square of how much a rate counts: places and turns are known to so much, and rates of rates
 /// are that over the time squared.
-fn round_off(problem: &Problem, poses: &[Pose], wrenches: &[Wrench]) -> f64 {
+fn round_off(problem: &Problem, poses: &[Pose]) -> f64 {
     let scale = problem.rod.scale();
     let far = poses.iter().fold(0.0, |far: f64, pose| far.max(pose.position.max_abs()));
-    let carries = |w: &Wrench| (w.linear.max_abs() / scale.force).max(w.angular.max_abs() / scale.moment);
-    let carried = wrenches.iter().map(carries).fold(1.0, f64::max);
     let of =
         |node: &NodeInertia| (node.mass * far / scale.force).max(node.rotational.max_abs() / scale.moment);
     let most = problem.rod.node_inertia().iter().map(of).fold(0.0, f64::max);
-    ROUND_OFF * f64::EPSILON * most / carried
+    ROUND_OFF * f64::EPSILON * most
+}
+
+/// What a rod carries, over `EI/L²` and `EI/L`, and no less than one.
+fn carried(problem: &Problem, system: &RodSystem) -> f64 {
+    let scale = problem.rod.scale();
+    let size = |w: &Wrench| (w.linear.max_abs() / scale.force).max(w.angular.max_abs() / scale.moment);
+    system.record.wrenches.iter().map(size).fold(1.0, f64::max)
 }
 
 impl Group {
@@ -146,11 +151,11 @@ impl Group {
         self.take_frames(poses);
     }
 
-    /// The residual that round-off leaves of its rods, times the square of how much a rate counts, s².
-    fn round_off(&self, assembly: &Assembly, State { poses, wrenches, .. }: &State) -> f64 {
+    /// The residual that round-off leaves of its rods, over what each carries, times the square of how much a rate counts, s².
+    fn round_off(&self, assembly: &Assembly, state: &State, carried: fn(&Problem, &RodSystem) -> f64) -> f64 {
         let of = |system: &RodSystem| {
             let problem = &assembly.strands[system.rod].problem;
-            round_off(problem, &poses[system.nodes()], &wrenches[system.elements()])
+            round_off(problem, &state.poses[system.nodes()]) / carried(problem, system)
         };
         self.rods.iter().map(of).fold(0.0, f64::max)
     }
@@ -338,8 +343,10 @@ impl Simulation {
     }
 
     /// In the shortest stage of which round-off leaves little over, how much a rate counts, s.
-    pub(super) fn shortest(&self) -> f64 {
-        let of = |group: &Group| group.round_off(&self.assembly, &self.state);
+    pub(super) fn shortest_stage(&self) -> f64 {
+        let of = |group: &Group| {
+            group.round_off(&self.assembly, &self.state, |problem, _| 1.0 + problem.load_size())
+        };
         (self.work.groups.iter().map(of).fold(0.0, f64::max) / SURE).sqrt()
     }
 
@@ -348,18 +355,15 @@ impl Simulation {
         let group = &mut work.groups[group];
         let (ties, stage, level) = (&work.ties, &mut work.stage, work.level);
         group.guess(assembly, ties, &mut work.poses, state);
-        let floor = group.round_off(assembly, state) / (stage.of_rate * stage.of_rate);
-        if floor > USABLE {
-            return Err(StepFailure::TooShort { time: state.time, step: work.step, left: floor });
-        }
-        let tolerance = settings.tolerance.max(floor);
+        let per_square = 1.0 / (stage.of_rate * stage.of_rate);
+        let tolerance = settings.tolerance;
         let mut given = Given {
             assembly,
             ties,
             inertia: &work.inertia,
             lengths: &work.lengths,
             lost: settings.mass_damping,
-            tolerance: floor.max(OF_GUESS * settings.tolerance),
+            tolerance: OF_GUESS * tolerance,
             level,
         };
         work.history.clear();
@@ -376,7 +380,8 @@ impl Simulation {
                 return Err(singular(&work.history));
             }
             let spent = iterations == settings.max_iterations;
-            let solved = residual <= given.tolerance;
+            let floor = group.round_off(assembly, state, carried) * per_square;
+            let solved = residual <= given.tolerance.max(floor);
             if spent && (settings.bounded && residual <= USABLE || solved)
                 || solved && last && !settings.bounded
             {
@@ -386,13 +391,13 @@ impl Simulation {
             if spent {
                 return Err(StepFailure::NotConverged { time, step, history: work.history.clone() });
             }
-            if slopes == Slopes::Kept && residual > tolerance.max(SERVES * before) {
+            if slopes == Slopes::Kept && residual > tolerance.max(floor).max(SERVES * before) {
                 slopes = Slopes::Anew;
                 group.linearise(&given, stage, &mut work.poses, slopes);
             }
             if !group.solve(level, slopes) {
                 // Where nothing keeps what is at rest from turning, a long step has no solution better than one that is good enough.
-                if residual <= tolerance {
+                if residual <= tolerance.max(floor) {
                     break residual;
                 }
                 return Err(singular(&work.history));
@@ -403,6 +408,12 @@ impl Simulation {
             (before, given.tolerance) = (residual, tolerance);
             iterations += 1;
         };
+        let bears =
+            |problem: &Problem, system: &RodSystem| carried(problem, system).max(1.0 + problem.load_size());
+        let left = group.round_off(assembly, state, bears) * per_square;
+        if left > USABLE {
+            return Err(StepFailure::TooShort { time, step, left });
+        }
         group.give_frames(&mut work.poses);
         for system in &group.rods {
             if assembly.strands[system.rod].viscosity > 0.0 && !stage.middle {

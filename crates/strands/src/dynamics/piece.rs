@@ -9,7 +9,9 @@ use crate::math::{Pose, Vec6, Wrench};
 /// Where a method needs rates to begin with, two steps of backward Euler's method find them, each this part of a step long, or more where round-off asks for it,
 /// and no more than that.
 const BEGINNING: f64 = 1e-4;
-const LONGEST_BEGINNING: f64 = 0.25;
+const LONGEST_BEGINNING: f64 = 0.1;
+/// Where that fails, so many times longer ones are tried.
+const LONGER: f64 = 10.0;
 
 /// A part of a step: where it begins and how long it is, over the whole.
 #[derive(Clone, Copy)]
@@ -29,12 +31,12 @@ impl Simulation {
     ) -> Result<Taken, StepFailure> {
         match integrator {
             Integrator::ImplicitEuler => self.runge_kutta(&IMPLICIT_EULER, held, piece),
-            Integrator::Sdirk4 => self.with_rates(&SDIRK4, held, piece),
-            Integrator::TrBdf2 => self.with_rates(&TR_BDF2, held, piece),
+            Integrator::Sdirk4 => self.begin_with_rates(&SDIRK4, held, piece),
+            Integrator::TrBdf2 => self.begin_with_rates(&TR_BDF2, held, piece),
             Integrator::Midpoint => self.midpoint(held, piece.begin + 0.5 * piece.length, piece.length),
             Integrator::Bdf2 | Integrator::GeneralizedAlpha { .. } if !self.looks_back(integrator) => {
                 let (poses, momenta) = (self.state.poses.clone(), self.state.momenta.clone());
-                let taken = self.with_rates(&TR_BDF2, held, piece)?;
+                let taken = self.begin_with_rates(&TR_BDF2, held, piece)?;
                 self.look_back_on(integrator, poses, momenta);
                 Ok(taken)
             }
@@ -82,31 +84,48 @@ impl Simulation {
 
     /// A piece of a step of a method with an explicit stage, which begins with the rates that the last one ended with. Where it fails the state is not that
     /// before it.
-    fn with_rates(&mut self, method: &RungeKutta, held: &Held, piece: Piece) -> Result<Taken, StepFailure> {
+    fn begin_with_rates(
+        &mut self,
+        method: &RungeKutta,
+        held: &Held,
+        piece: Piece,
+    ) -> Result<Taken, StepFailure> {
         if matches!(self.state.past, Past::Rates { .. }) {
-            return self.going_on(method, held, piece);
+            return self.with_rates(method, held, piece);
         }
         // Velocities may jump now, where a support begins to move, and what holds it then exerts nearly an impulse: that is what the first short step is
-        // for. The second one has what acts thereafter.
-        let began = self.state.time;
-        let (mut taken, mut rest) = (Taken::default(), piece);
-        let sure = self.shortest() / (self.work.step * piece.length);
-        let part = BEGINNING.max(sure).min(LONGEST_BEGINNING);
-        let mut all = || {
-            for _ in 0..2 {
-                let short = Piece { begin: rest.begin, length: part * piece.length };
-                taken.add(self.runge_kutta(&IMPLICIT_EULER, held, short)?);
-                rest = Piece { begin: rest.begin + short.length, length: rest.length - short.length };
+        // for. The second one has what acts thereafter. What is heavy and hangs from what cannot stretch may need longer ones.
+        let sure = self.shortest_stage() / (self.work.step * piece.length);
+        let mut part = BEGINNING.max(sure).min(LONGEST_BEGINNING);
+        let before = self.state.clone();
+        loop {
+            match self.beginning(method, held, piece, part) {
+                Err(_) if part < LONGEST_BEGINNING => part = (LONGER * part).min(LONGEST_BEGINNING),
+                made => return made.map_err(|failure| failure.in_step(before.time, self.work.step)),
             }
-            self.remember_rates();
-            taken.add(self.going_on(method, held, rest)?);
-            Ok(taken)
-        };
-        let made = all();
-        made.map_err(|failure: StepFailure| failure.in_step(began, self.work.step))
+            self.state.clone_from(&before);
+        }
     }
 
-    fn going_on(&mut self, method: &RungeKutta, held: &Held, piece: Piece) -> Result<Taken, StepFailure> {
+    fn beginning(
+        &mut self,
+        method: &RungeKutta,
+        held: &Held,
+        piece: Piece,
+        part: f64,
+    ) -> Result<Taken, StepFailure> {
+        let (mut taken, mut rest) = (Taken::default(), piece);
+        for _ in 0..2 {
+            let short = Piece { begin: rest.begin, length: part * piece.length };
+            taken.add(self.runge_kutta(&IMPLICIT_EULER, held, short)?);
+            rest = Piece { begin: rest.begin + short.length, length: rest.length - short.length };
+        }
+        self.remember_rates();
+        taken.add(self.with_rates(method, held, rest)?);
+        Ok(taken)
+    }
+
+    fn with_rates(&mut self, method: &RungeKutta, held: &Held, piece: Piece) -> Result<Taken, StepFailure> {
         let taken = self.runge_kutta(method, held, piece)?;
         self.remember_rates();
         Ok(taken)

@@ -312,6 +312,38 @@ fn what_cannot_move_is_refused_and_what_fails_leaves_the_state() {
     assert_eq!(simulation.state(), &before);
 }
 
+/// It carries 1e9 times what would bend it: what round-off leaves beside that of bending is nothing beside that of its weight.
+#[test]
+fn a_line_of_a_hundred_metres_falls_into_its_support_without_gaining_energy() {
+    let nylon = Material::from_poisson(2e9, 0.4, 1140.0).unwrap();
+    for time_step in [1e-3, 1e-4] {
+        for integrator in [Integrator::Bdf2, Integrator::TrBdf2] {
+            let rod = rod(100.0, 0.15e-3, nylon, Kinematics::Cosserat, 200);
+            let loads = NodalLoads::none(&rod).with_gravity(&rod, Vec3::Z * 9.81);
+            let hung = Problem { loads, ..Problem::cantilever(rod) };
+            let mut simulation = simulated(hung, integrator, time_step, Start::Rest);
+            let began = simulation.energy().total();
+            simulation.advance(0.05).unwrap();
+            let energy = simulation.energy();
+            let fallen = simulation.state().poses[200].position.z - 100.0;
+            assert!((fallen / (0.5 * 9.81 * 0.05 * 0.05) - 1.0).abs() < 1e-2, "{fallen}");
+            let gained = (energy.total() - began) / energy.kinetic;
+            assert!((-1e-2..1e-6).contains(&gained), "{} {time_step}: {gained:e}", integrator.name());
+        }
+    }
+}
+
+#[test]
+fn a_step_that_is_too_short_for_round_off_is_refused() {
+    for integrator in [Integrator::Bdf2, Integrator::TrBdf2, Integrator::ImplicitEuler] {
+        let mut simulation = simulated(heavy(suture(20)), integrator, 1e-12, Start::Rest);
+        let failure = simulation.step().unwrap_err();
+        assert!(matches!(failure, super::StepFailure::TooShort { .. }), "{failure}");
+        assert!(failure.to_string().starts_with("at 0.0 s a step of 1e-12 s is too short"), "{failure}");
+        assert_eq!(simulation.state().time, 0.0);
+    }
+}
+
 #[test]
 fn an_inextensible_rod_swings_as_one_that_hardly_stretches() {
     let material = Material::from_poisson(750e6, 0.4, 1300.0).unwrap();
