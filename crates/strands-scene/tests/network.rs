@@ -205,6 +205,9 @@ fn steps_are_made_as_written() {
     let chosen = motion("tolerance = 1e-3\noutput_rate = 50");
     assert_eq!((chosen.integrator, chosen.local_error), (Integrator::Sdirk4, Some(1e-3)));
     assert_eq!(chosen.time_step, 0.02);
+    let stretchless = THREAD.replace("[rods.thread]", "[rods.thread]\nkinematics = \"kirchhoff\"");
+    let chosen = read(&[&stretchless, "[dynamics]\ntolerance = 1e-3"]).motion();
+    assert_eq!((chosen.integrator, chosen.local_error), (Integrator::TrBdf2, Some(1e-3)));
 }
 
 #[test]

@@ -245,6 +245,26 @@ fn the_last_frame_is_where_the_run_ends() {
 }
 
 #[test]
+fn the_method_of_order_4_is_warned_of_where_a_rod_does_not_stretch() {
+    let sets = ["--set", "rods.beam.kinematics=\"kirchhoff\"", "--set", "dynamics.integrator=\"sdirk4\""];
+    let run = strands(&[FALL.as_slice(), &sets, &["--seconds", "0.01"]].concat());
+    assert_eq!(run.code, 0, "{}", run.err);
+    let note =
+        "note: sdirk4 gains energy where rods that do not stretch, as `beam`, turn; tr_bdf2 and bdf2 do not";
+    assert_eq!(run.err.trim_end(), note);
+}
+
+#[test]
+fn states_of_an_older_format_are_told_from_what_is_none() {
+    let folder = folder("simulate-old-state");
+    std::fs::write(folder.join("old.json"), "{\"format\":1,\"time\":0.5}").unwrap();
+    let start = format!("dynamics.start=\"{}\"", folder.join("old.json").to_str().unwrap());
+    let run = strands(&["simulate", "cantilever.toml", "--set", &start]);
+    assert_eq!(run.code, 1);
+    assert!(run.err.contains("a state of format 1, and this program reads format 3"), "{}", run.err);
+}
+
+#[test]
 fn supports_that_go_beyond_an_inextensible_rod_are_named() {
     let folder = folder("beyond");
     let scene = r#"
