@@ -9,10 +9,9 @@ use std::time::Instant;
 use indicatif::ProgressBar;
 use strands::assembly::{Member, Strand};
 use strands::dynamics::{Integrator, Settings, Simulation, SimulationError, Start, StepFailure};
-use strands::rod::Kinematics;
 use strands::statics::{Reaction, Support};
 use strands_scene::write::{End, Frame, FrameEnergy, MovedBody, MovedRod, Ran, motion_json};
-use strands_scene::{MeshChoice, Model, ModelBody, ModelRod, OUTPUT_RATE, read_state, state_json};
+use strands_scene::{MeshChoice, Model, ModelBody, OUTPUT_RATE, read_state, state_json};
 
 use crate::args::Simulate;
 use crate::source::Source;
@@ -104,11 +103,8 @@ fn keep_apart(options: &Simulate) -> Result<(), Failure> {
 impl Plan {
     fn new(options: &Simulate, source: &Source, model: &Model) -> Result<Self, Failure> {
         let (settings, dynamics) = (model.motion(), &model.dynamics);
-        if let (Integrator::Sdirk4, Some(rod)) = (settings.integrator, inextensible(model)) {
-            tell(&format!(
-                "note: sdirk4 gains energy where rods that do not stretch, as `{}`, turn; tr_bdf2 and bdf2 do not",
-                rod.name
-            ));
+        if let Some(fault) = fault_of(settings.integrator, model) {
+            tell(&format!("note: {fault}; tr_bdf2 and bdf2 do not"));
         }
         let start = match dynamics.start.as_deref().unwrap_or("equilibrium") {
             "equilibrium" => Start::Equilibrium,
@@ -142,9 +138,10 @@ impl Plan {
     }
 }
 
-/// A rod that does not stretch.
-fn inextensible(model: &Model) -> Option<&ModelRod> {
-    model.rods.iter().find(|rod| rod.problem.rod.kinematics() == Kinematics::Kirchhoff)
+/// What an integrator does wrong with the rods of a scene.
+fn fault_of(integrator: Integrator, model: &Model) -> Option<String> {
+    let rod = model.inextensible().filter(|_| integrator == Integrator::Sdirk4)?;
+    Some(format!("sdirk4 gains energy where rods that do not stretch, as `{}`, turn", rod.name))
 }
 
 /// The state in a file.
@@ -212,11 +209,10 @@ fn stepped(model: &Model, plan: &Plan, simulation: &mut Simulation, bar: &Progre
     // A run that goes on has its frames at the same times, to the bit, as one that was not ended.
     let before = start / plan.every;
     let before = if (before - before.round()).abs() < SAME_TIME { before.round() } else { before };
-    let last = (before + ((end - start) / plan.every).round()) * plan.every;
+    let last = (before + (plan.seconds / plan.every).round()) * plan.every;
     let end = if (last - end).abs() < SAME_TIME * plan.every { last } else { end };
     while !simulation.has_come_to(end) && run.end == End::Finished {
-        let due = (before + run.frames.len() as f64) * plan.every;
-        let due = due.min(end);
+        let due = ((before + run.frames.len() as f64) * plan.every).min(end);
         let began = Instant::now();
         let step = match simulation.step_towards(due) {
             Ok(step) => step,
@@ -276,14 +272,34 @@ fn mend(model: &Model, simulation: &Simulation, failure: &StepFailure) -> String
             rod.name
         );
     }
+    if let Some(supports) = mend_of_supports(model, simulation, shorter) {
+        return supports;
+    }
+    if let Some(iterations) = model.dynamics.newton_iterations {
+        return format!("newton_iterations = {iterations} may be too few, or {shorter} may be solved");
+    }
+    if let Some(fault) = fault_of(simulation.settings().integrator, model) {
+        return format!("{fault}: take tr_bdf2 or bdf2");
+    }
+    match model.inextensible() {
+        Some(rod) => {
+            format!("{longer} may be solved, or kinematics = \"cosserat\" for rod `{}`", rod.name)
+        }
+        None => format!("{shorter} may be solved"),
+    }
+}
+
+/// The same where supports move further than a rod is long, or by more than an element in a step.
+fn mend_of_supports(model: &Model, simulation: &Simulation, shorter: &str) -> Option<String> {
+    let (assembly, state) = (simulation.assembly(), simulation.state());
     for (number, (rod, strand)) in model.rods.iter().zip(&assembly.strands).enumerate() {
         if let Some(stretch) = strand.problem.out_of_reach() {
             let [apart, length] =
                 [stretch.chord.norm(), stretch.length].map(|metres| engineering(metres, "m"));
-            return format!(
+            return Some(format!(
                 "supports of rod `{}` are then {apart} apart, and the rod between them is {length} long and does not stretch: move them less far, or take kinematics = \"cosserat\"",
                 rod.name
-            );
+            ));
         }
         let first = assembly.nodes(number).start;
         let moved = |(node, support): (usize, &Support)| {
@@ -297,27 +313,13 @@ fn mend(model: &Model, simulation: &Simulation, failure: &StepFailure) -> String
         let element = elements.fold(f64::INFINITY, f64::min);
         if far > element {
             let [far, element] = [far, element].map(|metres| engineering(metres, "m"));
-            return format!(
+            return Some(format!(
                 "a support of rod `{}` moves by {far} in that step, and an element is {element} long: take {shorter}",
                 rod.name
-            );
+            ));
         }
     }
-    if let Some(iterations) = model.dynamics.newton_iterations {
-        return format!("newton_iterations = {iterations} may be too few, or {shorter} may be solved");
-    }
-    match inextensible(model) {
-        Some(rod) if simulation.settings().integrator == Integrator::Sdirk4 => {
-            format!(
-                "sdirk4 gains energy where rods that do not stretch, as `{}`, turn: take tr_bdf2 or bdf2",
-                rod.name
-            )
-        }
-        Some(rod) => {
-            format!("{longer} may be solved, or kinematics = \"cosserat\" for rod `{}`", rod.name)
-        }
-        None => format!("{shorter} may be solved"),
-    }
+    None
 }
 
 /// How all moves now.

@@ -44,14 +44,18 @@ impl Model {
         Ok(simulation)
     }
 
+    /// The first rod that does not stretch.
+    pub fn inextensible(&self) -> Option<&ModelRod> {
+        self.rods.iter().find(|rod| rod.problem.rod.kinematics() == Kinematics::Kirchhoff)
+    }
+
     /// How steps are made. What the scene does not say is as in [`dynamics::Settings::default`]; steps that are chosen by their error are no longer than
     /// from one frame of the output to the next.
     pub fn motion(&self) -> dynamics::Settings {
         let (written, default) = (&self.dynamics, dynamics::Settings::default());
         let chosen = written.tolerance.is_some();
-        let all_stretch = self.rods.iter().all(|rod| rod.problem.rod.kinematics() == Kinematics::Cosserat);
         let integrator = match written.integrator {
-            None if chosen && all_stretch => Integrator::Sdirk4,
+            None if chosen && self.inextensible().is_none() => Integrator::Sdirk4,
             None if chosen => Integrator::TrBdf2,
             None => default.integrator,
             Some(IntegratorName::Bdf2) => Integrator::Bdf2,

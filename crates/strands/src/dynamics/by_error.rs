@@ -1,6 +1,6 @@
 //! Steps that are as long as their error allows.
 
-use super::integrator::{RungeKutta, SDIRK4};
+use super::integrator::RungeKutta;
 use super::{Simulation, Step, StepFailure, Taken};
 use crate::math::{Vec6, larger};
 
@@ -15,9 +15,13 @@ const SHORTEST: f64 = 1e-9;
 
 impl Simulation {
     /// Makes a step as long as its error allows, by a method and the other one in it.
-    pub(super) fn step_by_error(&mut self, allowed: f64, longest: f64) -> Result<Step, StepFailure> {
+    pub(super) fn step_by_error(
+        &mut self,
+        method: &RungeKutta,
+        allowed: f64,
+        longest: f64,
+    ) -> Result<Step, StepFailure> {
         let (integrator, before) = (self.settings.integrator, self.state.clone());
-        let method = integrator.embedding().unwrap_or(&SDIRK4);
         let (mut iterations, mut cause) = (0, None);
         let longest = longest.min(self.settings.time_step);
         // One that is nearly over is divided evenly.

@@ -49,9 +49,7 @@ impl Integrator {
             Self::TrBdf2 => "tr_bdf2",
         }
     }
-}
 
-impl Integrator {
     /// The method by which the error of its steps is known, where there is one.
     pub(super) fn embedding(self) -> Option<&'static RungeKutta> {
         match self {
@@ -107,8 +105,8 @@ impl RungeKutta {
 pub(super) const IMPLICIT_EULER: RungeKutta =
     RungeKutta { explicit: false, diagonal: 1.0, before: &[&[]], error: &[], error_order: 0.0 };
 
-/// The implicit part of ARK4(3)6L\[2\]SA (Kennedy & Carpenter 2003, appendix C), and its method of order 3. Its stages are of order 2, which the explicit one is for: with stages of
-/// order 1 the wrenches of rods that do not stretch would have errors that no shorter step makes smaller (Hairer, Lubich & Roche 1989).
+/// The implicit part of ARK4(3)6L\[2\]SA (Kennedy & Carpenter 2003, appendix C), and its method of order 3. Its stages are of order 2, which the explicit
+/// one is for: with stages of order 1 the wrenches of rods that do not stretch would have errors that no shorter step makes smaller (Hairer, Lubich & Roche 1989).
 pub(super) const SDIRK4: RungeKutta = RungeKutta {
     explicit: true,
     diagonal: 0.25,

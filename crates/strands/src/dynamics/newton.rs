@@ -2,7 +2,7 @@
 
 use super::stage::{Resistance, Stage};
 use super::{Simulation, State, StepFailure, Taken};
-use crate::assembly::{Assembly, Member, Ties};
+use crate::assembly::{Assembly, Member, Strand, Ties};
 use crate::math::{Pose, SimdLevel, Vec3, Wrench, larger};
 use crate::rod::{Kinematics, NodeInertia};
 use crate::statics::{Motion, Network, Nodal, Problem, Record, Slopes, Support, meet, rigid_compliance};
@@ -44,6 +44,8 @@ pub(super) struct RodSystem {
     /// Its first frame and its first element.
     first: usize,
     first_element: usize,
+    /// The residual that round-off leaves where it is guessed, times the square of how much a rate counts, s².
+    round_off: f64,
     pub nodal: Nodal,
     pub record: Record,
 }
@@ -64,7 +66,7 @@ impl RodSystem {
         let (first, first_element) = (assembly.nodes(rod).start, assembly.elements(rod).start);
         let mut record = Record::default();
         record.fit(assembly.strands[rod].problem.rod.elements());
-        Self { rod, first, first_element, nodal: Nodal::default(), record }
+        Self { rod, first, first_element, round_off: 0.0, nodal: Nodal::default(), record }
     }
 
     /// The frames of its nodes.
@@ -115,7 +117,7 @@ fn lent(problem: &Problem, of_rate: f64, (weight, mass): (f64, f64)) -> f64 {
         return 0.0;
     }
     let inertia = (rod.mass() + mass) * scale.length / (of_rate * of_rate);
-    rigid_compliance(1.0 + problem.load_size() + (weight + inertia) / scale.force)
+    rigid_compliance(loaded(problem) + (weight + inertia) / scale.force)
 }
 
 /// The residual that round-off of the frames leaves, times the square of how much a rate counts: places and turns are known to so much, and rates of rates
@@ -129,11 +131,16 @@ fn round_off(problem: &Problem, poses: &[Pose]) -> f64 {
     ROUND_OFF * f64::EPSILON * most
 }
 
+/// What loads a rod, over `EI/L²`, and no less than one.
+fn loaded(problem: &Problem) -> f64 {
+    1.0 + problem.load_size()
+}
+
 /// What a rod carries, over `EI/L²` and `EI/L`, and no less than one.
-fn carried(problem: &Problem, system: &RodSystem) -> f64 {
+fn carried(problem: &Problem, wrenches: &[Wrench]) -> f64 {
     let scale = problem.rod.scale();
     let size = |w: &Wrench| (w.linear.max_abs() / scale.force).max(w.angular.max_abs() / scale.moment);
-    system.record.wrenches.iter().map(size).fold(1.0, f64::max)
+    wrenches.iter().map(size).fold(1.0, f64::max)
 }
 
 impl Group {
@@ -144,18 +151,19 @@ impl Group {
                 let pose = &mut poses[system.first + node];
                 *pose = meet(support, pose);
             }
-            let elements = system.elements();
+            let (nodes, elements) = (system.nodes(), system.elements());
+            system.round_off = round_off(&assembly.strands[system.rod].problem, &state.poses[nodes]);
             system.record.wrenches.copy_from_slice(&state.wrenches[elements]);
         }
         self.meet(assembly, ties, poses);
         self.take_frames(poses);
     }
 
-    /// The residual that round-off leaves of its rods, over what each carries, times the square of how much a rate counts, s².
-    fn round_off(&self, assembly: &Assembly, state: &State, carried: fn(&Problem, &RodSystem) -> f64) -> f64 {
+    /// The same of its rods over what each carries, or what `least` says of its problem where that is more.
+    fn round_off(&self, assembly: &Assembly, least: fn(&Problem) -> f64) -> f64 {
         let of = |system: &RodSystem| {
             let problem = &assembly.strands[system.rod].problem;
-            round_off(problem, &state.poses[system.nodes()]) / carried(problem, system)
+            system.round_off / carried(problem, &system.record.wrenches).max(least(problem))
         };
         self.rods.iter().map(of).fold(0.0, f64::max)
     }
@@ -344,10 +352,10 @@ impl Simulation {
 
     /// In the shortest stage of which round-off leaves little over, how much a rate counts, s.
     pub(super) fn shortest_stage(&self) -> f64 {
-        let of = |group: &Group| {
-            group.round_off(&self.assembly, &self.state, |problem, _| 1.0 + problem.load_size())
+        let of = |(rod, strand): (usize, &Strand)| {
+            round_off(&strand.problem, &self.state.poses[self.assembly.nodes(rod)]) / loaded(&strand.problem)
         };
-        (self.work.groups.iter().map(of).fold(0.0, f64::max) / SURE).sqrt()
+        (self.assembly.strands.iter().enumerate().map(of).fold(0.0, f64::max) / SURE).sqrt()
     }
 
     fn solve_group(&mut self, group: usize) -> Result<Taken, StepFailure> {
@@ -380,7 +388,7 @@ impl Simulation {
                 return Err(singular(&work.history));
             }
             let spent = iterations == settings.max_iterations;
-            let floor = group.round_off(assembly, state, carried) * per_square;
+            let floor = group.round_off(assembly, |_| 1.0) * per_square;
             let solved = residual <= given.tolerance.max(floor);
             if spent && (settings.bounded && residual <= USABLE || solved)
                 || solved && last && !settings.bounded
@@ -408,9 +416,7 @@ impl Simulation {
             (before, given.tolerance) = (residual, tolerance);
             iterations += 1;
         };
-        let bears =
-            |problem: &Problem, system: &RodSystem| carried(problem, system).max(1.0 + problem.load_size());
-        let left = group.round_off(assembly, state, bears) * per_square;
+        let left = group.round_off(assembly, loaded) * per_square;
         if left > USABLE {
             return Err(StepFailure::TooShort { time, step, left });
         }

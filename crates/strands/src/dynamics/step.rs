@@ -25,8 +25,10 @@ impl Simulation {
     /// # Errors
     /// As [`Simulation::step`].
     pub fn step_towards(&mut self, until: f64) -> Result<Step, StepFailure> {
-        if let Some(allowed) = self.settings.local_error {
-            return self.step_by_error(allowed, until - self.state.time);
+        if let (Some(allowed), Some(method)) =
+            (self.settings.local_error, self.settings.integrator.embedding())
+        {
+            return self.step_by_error(method, allowed, until - self.state.time);
         }
         self.work.step = self.settings.time_step;
         let held = Held::begin(self);
