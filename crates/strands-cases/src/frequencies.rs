@@ -6,7 +6,7 @@ use crate::uniform::Uniform;
 use crate::vibration::{Vibration, VibrationError};
 use core::f64::consts::{PI, TAU};
 use std::sync::Arc;
-use strands::assembly::{Assembly, Body, Joint, JointKind, Member};
+use strands::assembly::{Assembly, Body, Joint, JointKind, MassMatrix, Member};
 use strands::load::NodalLoads;
 use strands::math::{Pose, Vec3, Vec6};
 use strands::rod::{NodeInertia, RodError};
@@ -63,6 +63,17 @@ impl VibrationRow {
         build: impl Fn(usize) -> Result<Assembly, RodError> + Send + Sync + 'static,
     ) -> Self {
         Self { label: label.into(), frequencies, build: Arc::new(build), push, along: Along::Growing }
+    }
+
+    /// The same with another mass matrix of all rods.
+    pub fn with_mass_matrix(self, mass_matrix: MassMatrix) -> Self {
+        let build = self.build.clone();
+        let build = move |elements| {
+            let mut assembly = build(elements)?;
+            assembly.strands.iter_mut().for_each(|strand| strand.mass_matrix = mass_matrix);
+            Ok(assembly)
+        };
+        Self { build: Arc::new(build), ..self }
     }
 
     /// Its frequencies with so many elements, rad/s.

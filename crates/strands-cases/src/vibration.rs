@@ -4,7 +4,7 @@
 //! pulls it back. Its eigenvectors are the modes, its eigenvalues `1/(1 + h²ω²)`: the step itself has no part in what is found. Lanczos' method (Parlett,
 //! The Symmetric Eigenvalue Problem, 1998, ch. 13) finds the modes that a push excites, the slowest first.
 
-use strands::assembly::Assembly;
+use strands::assembly::{Assembly, MassMatrix};
 use strands::dynamics::{Integrator, Settings, Simulation, SimulationError, Start, State, StepFailure};
 use strands::math::Vec6;
 use strands::rod::NodeInertia;
@@ -52,6 +52,8 @@ pub struct Vibration {
     simulation: Simulation,
     rest: State,
     inertia: Vec<NodeInertia>,
+    /// Between which frame and the next one inertia couples, and how much.
+    coupling: Vec<(usize, NodeInertia)>,
     time_step: f64,
 }
 
@@ -63,6 +65,11 @@ impl Vibration {
     pub fn new(assembly: Assembly, time_step: f64) -> Result<Self, VibrationError> {
         let rods = assembly.strands.iter().flat_map(|strand| strand.problem.rod.node_inertia().to_vec());
         let inertia = rods.chain(assembly.bodies.iter().map(|body| body.inertia)).collect();
+        let consistent = assembly.strands.iter().enumerate();
+        let consistent = consistent.filter(|(_, strand)| strand.mass_matrix == MassMatrix::Consistent);
+        let coupling = consistent
+            .flat_map(|(rod, strand)| assembly.nodes(rod).zip(strand.problem.rod.coupling_inertia()))
+            .collect();
         let settings = Settings {
             integrator: Integrator::ImplicitEuler,
             time_step,
@@ -74,7 +81,7 @@ impl Vibration {
         // After a step without motion it carries what it bears.
         simulation.step()?;
         let rest = simulation.state().clone();
-        Ok(Self { simulation, rest, inertia, time_step })
+        Ok(Self { simulation, rest, inertia, coupling, time_step })
     }
 
     /// What becomes of small velocities in a step.
@@ -98,10 +105,12 @@ impl Vibration {
 
     /// Twice the kinetic energy that two velocities share.
     pub fn product(&self, a: &[Vec6], b: &[Vec6]) -> f64 {
-        let terms = self.inertia.iter().zip(a.iter().zip(b)).map(|(inertia, (a, b))| {
+        let of = |inertia: &NodeInertia, a: Vec6, b: Vec6| {
             inertia.rotational.scale(a.angular).dot(b.angular) + a.linear.dot(b.linear) * inertia.mass
-        });
-        terms.sum()
+        };
+        let lumped = self.inertia.iter().zip(a.iter().zip(b)).map(|(inertia, (a, b))| of(inertia, *a, *b));
+        let less = self.coupling.iter().map(|(i, inertia)| of(inertia, a[i + 1] - a[*i], b[i + 1] - b[*i]));
+        lumped.sum::<f64>() - less.sum::<f64>()
     }
 
     /// The circular frequency of a mode of which a step leaves so much, rad/s; less than nothing, squared, where it grows.

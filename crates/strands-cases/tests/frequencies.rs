@@ -1,5 +1,7 @@
 //! Frequencies of small vibrations, against their reference values.
 
+use core::f64::consts::PI;
+use strands::assembly::MassMatrix;
 use strands_cases::{VibrationCase, VibrationRow, all_vibrations};
 
 fn case(name: &str) -> VibrationCase {
@@ -41,6 +43,36 @@ fn bending_torsional_and_axial_frequencies_are_exact_within_half_a_percent_and_o
         }
     }
     assert_eq!(modes, 5 + 5 + 3 + 3);
+}
+
+/// A sine wave of wave number `k` on a mesh of elements of length `h`: its frequency over that in a rod that is not cut, by `x = k h`. Strains are differences of
+/// places and turns; a rod that bends without shear turns at a node by the mean of both sides, `cos(x/2) θ = (2/h) sin(x/2) w`.
+#[test]
+fn waves_on_a_mesh_have_the_frequencies_of_either_mass_matrix() {
+    const ELEMENTS: usize = 20;
+    let half = |x: f64| (0.5 * x).sin() / (0.5 * x);
+    let stretching = |x: f64, mass: f64| half(x) / mass.sqrt();
+    let bending = |x: f64, mass: f64| half(x).powi(2) / (0.5 * x).cos() / mass.sqrt();
+    let consistent = |x: f64| (2.0 + x.cos()) / 3.0;
+    let waves = case("standing-waves").rows.into_iter();
+    let pinned = case("bending-vibrations").rows.into_iter().filter(|row| row.label.starts_with("pinned"));
+    let mut modes = 0;
+    for row in waves.chain(pinned) {
+        let bends = row.label.starts_with("pinned");
+        for matrix in [MassMatrix::Lumped, MassMatrix::Consistent] {
+            let found = measured(&row.clone().with_mass_matrix(matrix), ELEMENTS);
+            for (k, (found, in_rod)) in found.iter().zip(&row.frequencies).enumerate() {
+                let first = if row.label.ends_with("clamped and free") { 0.5 } else { 1.0 };
+                let x = PI * (k as f64 + first) / ELEMENTS as f64;
+                let mass = if matrix == MassMatrix::Lumped { 1.0 } else { consistent(x) };
+                let expected = in_rod * if bends { bending(x, mass) } else { stretching(x, mass) };
+                let off = found / expected - 1.0;
+                assert!(off.abs() < 1e-7, "{matrix:?}, {}, mode {}: {off:.1e}", row.label, k + 1);
+                modes += 1;
+            }
+        }
+    }
+    assert_eq!(modes, 2 * (6 * 3 + 4));
 }
 
 #[test]

@@ -3,9 +3,9 @@
 use core::fmt;
 
 use serde::{Deserialize, Serialize};
+use strands::assembly::MassMatrix;
 use strands::dynamics::{Means, Past, Power, State};
 use strands::math::{Mat3, Pose, Vec3, Vec6};
-use strands::rod::Rod;
 use thiserror::Error;
 
 use crate::Model;
@@ -71,6 +71,9 @@ struct WrittenRod {
     elements: usize,
     length: f64,
     mass: f64,
+    /// Where its mass matrix is the consistent one.
+    #[serde(default, skip_serializing_if = "core::ops::Not::not")]
+    consistent: bool,
 }
 
 #[derive(Serialize, Deserialize)]
@@ -81,7 +84,10 @@ struct WrittenBody {
 
 impl PartialEq for WrittenRod {
     fn eq(&self, other: &Self) -> bool {
-        self.elements == other.elements && near(self.length, other.length) && near(self.mass, other.mass)
+        self.elements == other.elements
+            && near(self.length, other.length)
+            && near(self.mass, other.mass)
+            && self.consistent == other.consistent
     }
 }
 
@@ -97,8 +103,9 @@ fn near(a: f64, b: f64) -> bool {
 
 impl fmt::Display for WrittenRod {
     fn fmt(&self, f: &mut fmt::Formatter) -> fmt::Result {
-        let Self { elements, length, mass } = self;
-        write!(f, "a rod of {elements} elements, {length:?} m and {mass:?} kg")
+        let Self { elements, length, mass, consistent } = self;
+        write!(f, "a rod of {elements} elements, {length:?} m and {mass:?} kg")?;
+        if *consistent { write!(f, " with a consistent mass matrix") } else { Ok(()) }
     }
 }
 
@@ -202,8 +209,11 @@ pub fn read_state(model: &Model, text: &str) -> Result<State, StateError> {
 }
 
 fn what_moves(model: &Model) -> (Vec<WrittenRod>, Vec<WrittenBody>) {
-    let rod = |rod: &Rod| WrittenRod { elements: rod.elements(), length: rod.length(), mass: rod.mass() };
-    let rods = model.rods.iter().map(|of| rod(&of.problem.rod));
+    let rods = model.rods.iter().map(|of| {
+        let rod = &of.problem.rod;
+        let consistent = of.mass_matrix == MassMatrix::Consistent;
+        WrittenRod { elements: rod.elements(), length: rod.length(), mass: rod.mass(), consistent }
+    });
     let bodies = model.bodies.iter().map(|of| WrittenBody { mass: of.body.inertia.mass });
     (rods.collect(), bodies.collect())
 }

@@ -192,6 +192,7 @@ fn load() -> impl Strategy<Value = LoadFile> {
 
 fn rod() -> impl Strategy<Value = RodFile> {
     let kinematics = prop::sample::select(vec![KinematicsName::Cosserat, KinematicsName::Kirchhoff]);
+    let mass_matrix = prop::sample::select(vec![MassMatrixName::Lumped, MassMatrixName::Consistent]);
     let mesh = (prop::option::of(0..1000_usize), prop::option::of(positive()));
     let given = (prop::option::of(stiffness()), prop::option::of(number()), prop::option::of(vector()));
     let base = (prop::option::of(vector()), prop::option::of([number(), number(), number(), number()]));
@@ -201,6 +202,7 @@ fn rod() -> impl Strategy<Value = RodFile> {
         prop::collection::vec(support(), 0..3),
         prop::collection::vec(load(), 0..3),
         prop::option::of((prop::option::of(number()), prop::option::of(number()))),
+        prop::option::of(mass_matrix),
     )
         .prop_map(
             |(
@@ -214,6 +216,7 @@ fn rod() -> impl Strategy<Value = RodFile> {
                 supports,
                 loads,
                 drag,
+                mass_matrix,
             )| RodFile {
                 material,
                 length,
@@ -230,6 +233,7 @@ fn rod() -> impl Strategy<Value = RodFile> {
                 supports,
                 loads,
                 drag: drag.map(|(linear, quadratic)| DragFile { linear, quadratic }),
+                mass_matrix,
             },
         )
 }

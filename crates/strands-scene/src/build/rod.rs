@@ -3,9 +3,9 @@
 use super::{Context, hold, joint, load, profile, rest};
 use crate::document::KeyPath;
 use crate::error::SceneError;
-use crate::file::{DragFile, KinematicsName, RodFile};
+use crate::file::{DragFile, KinematicsName, MassMatrixName, RodFile};
 use crate::model::{MAX_ELEMENTS, MeshChoice, ModelRod, breaks};
-use strands::assembly::Drag;
+use strands::assembly::{Drag, MassMatrix};
 use strands::math::Pose;
 use strands::rod::{Kinematics, Rod, RodDescription, RodError};
 
@@ -65,7 +65,22 @@ pub(super) fn rod(
         .drag
         .as_ref()
         .map_or(Ok(Drag::default()), |written| drag(context, &path.key("drag"), written))?;
-    Ok(ModelRod { name: name.to_owned(), problem, hand: None, mesh, damping, drag, loads, supports, ties })
+    let mass_matrix = match file.mass_matrix {
+        Some(MassMatrixName::Consistent) => MassMatrix::Consistent,
+        Some(MassMatrixName::Lumped) | None => MassMatrix::Lumped,
+    };
+    Ok(ModelRod {
+        name: name.to_owned(),
+        problem,
+        hand: None,
+        mesh,
+        damping,
+        drag,
+        mass_matrix,
+        loads,
+        supports,
+        ties,
+    })
 }
 
 fn drag(context: &Context, path: &KeyPath, written: &DragFile) -> Result<Drag, SceneError> {

@@ -15,8 +15,8 @@ pub use network::{
     BodyFile, BodyShapeFile, BodyShapeName, BodySupportFile, JointEndFile, JointFile, JointName,
 };
 pub use rod::{
-    DragFile, HelixFile, KinematicsName, RestFile, RestSample, RodFile, SectionFile, SectionsFile, ShapeName,
-    StiffnessFile,
+    DragFile, HelixFile, KinematicsName, MassMatrixName, RestFile, RestSample, RodFile, SectionFile,
+    SectionsFile, ShapeName, StiffnessFile,
 };
 pub use settings::{
     ContactFile, DynamicsFile, IntegratorName, JacobianName, MethodName, SchemeName, SolverFile, WindFile,

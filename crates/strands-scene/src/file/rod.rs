@@ -57,6 +57,19 @@ pub struct RodFile {
     /// What slows it down in a simulation: the drag of the medium around. Default: none.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub drag: Option<DragFile>,
+    /// How its inertia is summed onto its nodes in a simulation. Default "lumped".
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub mass_matrix: Option<MassMatrixName>,
+}
+
+/// How the inertia of a rod is summed onto its nodes.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
+#[serde(rename_all = "snake_case")]
+pub enum MassMatrixName {
+    /// Each node carries that of half of each element beside it.
+    Lumped,
+    /// That of velocities that are linear along each element, which couples neighbours.
+    Consistent,
 }
 
 /// The drag of the medium around a rod, per unit length.

@@ -9,7 +9,7 @@ pub(crate) use held::{Held, Target};
 pub use motion::OUTPUT_RATE;
 
 use crate::file::DynamicsFile;
-use strands::assembly::{Drag, Joint};
+use strands::assembly::{Drag, Joint, MassMatrix};
 use strands::coupling::VirtualCoupling;
 use strands::load::{DistributedLoad, DistributedPull, NodalLoads, PointLoad, PointPull};
 use strands::math::Vec3;
@@ -57,6 +57,8 @@ pub struct ModelRod {
     pub damping: f64,
     /// What the medium around takes.
     pub drag: Drag,
+    /// How its inertia is summed onto its nodes.
+    pub mass_matrix: MassMatrix,
     pub(crate) loads: Loads,
     pub(crate) supports: Vec<Held>,
     /// Where joints are, m.

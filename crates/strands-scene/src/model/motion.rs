@@ -122,7 +122,12 @@ impl Model {
 
 impl ModelRod {
     fn strand(&self) -> Strand {
-        Strand { problem: self.problem.clone(), viscosity: self.damping, drag: self.drag }
+        Strand {
+            problem: self.problem.clone(),
+            viscosity: self.damping,
+            drag: self.drag,
+            mass_matrix: self.mass_matrix,
+        }
     }
 
     /// How its supports move, where it is the rod of a number.

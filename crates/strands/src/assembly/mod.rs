@@ -28,6 +28,20 @@ pub struct Strand {
     pub viscosity: f64,
     /// What the air around takes.
     pub drag: Drag,
+    /// How its inertia is summed onto its nodes.
+    pub mass_matrix: MassMatrix,
+}
+
+/// How the inertia of a rod is summed onto its nodes.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub enum MassMatrix {
+    /// Each node carries the inertia of half of each element beside it.
+    #[default]
+    Lumped,
+    /// The kinetic energy is that of velocities that are linear along each element: of places in the world, of turns in the axes that turn along. So
+    /// it couples the momenta of neighbours, and the frequencies of axial and torsional vibration are too high, by as much as they are too low when lumped; those
+    /// of bending are too high by more (`ARCHITECTURE.md`).
+    Consistent,
 }
 
 /// The drag of the medium around a rod, per unit length.
@@ -41,7 +55,7 @@ pub struct Drag {
 
 impl From<Problem> for Strand {
     fn from(problem: Problem) -> Self {
-        Self { problem, viscosity: 0.0, drag: Drag::default() }
+        Self { problem, viscosity: 0.0, drag: Drag::default(), mass_matrix: MassMatrix::default() }
     }
 }
 

@@ -50,12 +50,6 @@ impl Simulation {
     /// Where the energy is now.
     pub fn energy(&self) -> Budget {
         let state = &self.state;
-        let kinetic = |(i, momentum): (usize, &Wrench)| {
-            let body = momentum.turned_back_by(&state.poses[i].rotation);
-            let NodeInertia { mass, rotational } = self.work.inertia[i];
-            let turning = squares_over(&body.angular.to_array(), &rotational.to_array());
-            0.5 * (turning + body.linear.dot(body.linear) / mass)
-        };
         let (mut elastic, mut load) = (0.0, 0.0);
         for (rod, strand) in self.assembly.strands.iter().enumerate() {
             let poses = &state.poses[self.assembly.nodes(rod)];
@@ -69,13 +63,33 @@ impl Simulation {
         for (body, pose) in self.assembly.bodies.iter().zip(&state.poses[self.assembly.first_body()..]) {
             load -= body.load.linear.dot(pose.position);
         }
-        Budget {
-            kinetic: state.momenta.iter().enumerate().map(kinetic).sum(),
-            elastic,
-            load,
-            dissipated: state.dissipated,
-            worked: state.worked,
-        }
+        Budget { kinetic: self.kinetic(), elastic, load, dissipated: state.dissipated, worked: state.worked }
+    }
+
+    /// The energy of motion, J.
+    fn kinetic(&self) -> f64 {
+        let Self { state, work, .. } = self;
+        let lumped = |i: usize| {
+            let NodeInertia { mass, rotational } = work.inertia[i];
+            let Wrench { angular, linear } = state.momenta[i].turned_back_by(&state.poses[i].rotation);
+            let turning = squares_over(&angular.to_array(), &rotational.to_array());
+            0.5 * (turning + linear.dot(linear) / mass)
+        };
+        // With momenta `p`, so that what is left over of them counts: `p·v − ½ v·M v`.
+        let coupled = |system: &RodSystem| {
+            let nodes = system.nodes();
+            let less = system.couplings.less(|node| state.velocities[nodes.start + node]);
+            let of = |i: usize| {
+                let velocity = state.velocities[i];
+                state.momenta[i].dot(twist(&state.poses[i], velocity)) - 0.5 * work.inertia[i].of(velocity)
+            };
+            nodes.map(of).sum::<f64>() + 0.5 * less
+        };
+        let rods = work.groups.iter().flat_map(|group| &group.rods).map(|system| {
+            if system.couplings.is_empty() { system.nodes().map(lumped).sum() } else { coupled(system) }
+        });
+        let bodies = (self.assembly.first_body()..state.poses.len()).map(lumped);
+        rods.sum::<f64>() + bodies.sum::<f64>()
     }
 
     /// The momentum of all, N·s, and the angular momentum about the first rod's base as it was described, N·m·s.
@@ -109,7 +123,8 @@ impl Simulation {
         let (stage, assembly) = (&self.work.stage, &self.assembly);
         let mut power = Power::default();
         let systems = self.work.groups.iter().flat_map(|group| &group.rods);
-        for RodSystem { rod, .. } in systems {
+        for system in systems {
+            let RodSystem { rod, couplings, .. } = system;
             let strand = &assembly.strands[*rod];
             let problem = &strand.problem;
             if strand.viscosity > 0.0 {
@@ -119,7 +134,9 @@ impl Simulation {
                     rates.map(|(rate, point)| squares_over(&rate.to_array(), &point.compliance.to_array()));
                 power.dissipated += strand.viscosity * squares.sum::<f64>();
             }
-            let first = assembly.nodes(*rod).start;
+            let first = system.nodes().start;
+            power.dissipated -=
+                self.settings.mass_damping * couplings.less(|node| stage.velocity(first + node));
             for (node, support) in problem.supports() {
                 power.worked += self.support_power(first + node, support);
             }
@@ -136,10 +153,7 @@ impl Simulation {
             }
         }
         for (frame, inertia) in self.work.inertia.iter().enumerate() {
-            let velocity = stage.velocity(frame);
-            let turning = velocity.angular.dot(inertia.rotational.scale(velocity.angular));
-            let motion = turning + velocity.linear.dot(velocity.linear) * inertia.mass;
-            power.dissipated += self.settings.mass_damping * motion;
+            power.dissipated += self.settings.mass_damping * inertia.of(stage.velocity(frame));
         }
         let drags = stage.drags.iter().enumerate();
         power.dissipated -= drags.map(|(frame, force)| force.dot(stage.velocity(frame).linear)).sum::<f64>();

@@ -61,6 +61,33 @@ impl<const SLOPES: bool> Kernel for TakeInertia<'_, SLOPES> {
     }
 }
 
+/// How the axes in which a frame's angular momentum is told, and its angular velocity in them, turn with a turn of the stage's frame in the world.
+pub(super) struct Turns {
+    pub axes: Mat3,
+    /// Of those axes, in themselves.
+    pub turning: Mat3,
+    /// Of the angular velocity.
+    pub by_turn: Mat3,
+}
+
+impl Turns {
+    /// Of a frame of a stage whose rates were taken.
+    pub fn of(stage: &Stage, frame: usize, pose: &Pose) -> Self {
+        if stage.middle {
+            return Self::at_middle(&stage.base[frame], pose, stage.of_rate);
+        }
+        let theta = stage.base[frame].rotation.turn_to(&pose.rotation);
+        let turning = pose.rotation.transpose();
+        let by_turn = Turning::new(theta, stage.coordinate_rates[frame].angular, 1.0 / stage.of_rate).by_turn;
+        Self { axes: pose.rotation, turning, by_turn: by_turn * turning }
+    }
+
+    /// How a momentum that is told in those axes, and changes with the angular velocity by so much inertia, changes in the world.
+    pub fn momentum_by_turn(&self, inertia: Vec3, momentum: Vec3) -> Mat3 {
+        self.axes * (Mat3::diagonal(inertia) * self.by_turn - Mat3::hat(momentum) * self.turning)
+    }
+}
+
 /// An angular velocity `T(θ) θ̇` in a frame's own axes.
 struct Turning<R> {
     velocity: Vec3<R>,

@@ -10,6 +10,7 @@
 
 use super::energy::Power;
 use super::holds::Held;
+use super::inertia::Turns;
 use super::stage::{Resistance, Stage, viscous_point};
 use super::{Simulation, StepFailure, Taken, Work};
 use crate::element::DiagonalPoint;
@@ -35,6 +36,20 @@ fn cayley(b: Vec3) -> (Vec3, Mat3) {
     (b * (2.0 * ratio), (Mat3::IDENTITY.scaled(ratio) + Mat3::outer(b, b).scaled(slope)).scaled(2.0))
 }
 
+impl Turns {
+    /// Of a frame in the middle of a step of `2 of_rate`: its momentum is told in the axes at the end.
+    pub fn at_middle(base: &Pose, pose: &Pose, of_rate: f64) -> Self {
+        let half = base.rotation.turn_to(&pose.rotation);
+        let (_, by_half) = cayley(half);
+        let half_by_turn = so3_tangent_inverse(half) * pose.rotation.transpose();
+        Self {
+            axes: base.rotation * Quat::from_rotation_vector(half * 2.0).to_matrix(),
+            turning: so3_tangent(half * 2.0).scaled(2.0) * half_by_turn,
+            by_turn: by_half.scaled(1.0 / of_rate) * half_by_turn,
+        }
+    }
+}
+
 impl Stage {
     /// What inertia and the air exert on some frames in the middle of a step of `2 of_rate`, from their poses there.
     pub fn take_inertia_at_middle(
@@ -49,27 +64,23 @@ impl Stage {
             let (base, pose) = (&self.base[i], &poses[at]);
             let NodeInertia { mass, rotational } = inertia[i];
             let known = self.known_momenta[i];
-            let spin_before = known.angular;
             let before = self.velocities_before[i];
             let half = base.rotation.turn_to(&pose.rotation);
-            let (theta, by_half) = cayley(half);
-            let turn = Quat::from_rotation_vector(half * 2.0).to_matrix();
-            let after = base.rotation * turn;
+            let (theta, _) = cayley(half);
+            let turns = Turns::at_middle(base, pose, self.of_rate);
             let angular = theta * (2.0 * per_step) - before.angular;
             let moved = (pose.position - base.position) * 2.0;
             let linear = moved * (2.0 * per_step) - before.linear;
             let body_spin = rotational.scale(angular);
-            let spin = after * body_spin;
+            let spin = turns.axes * body_spin;
             let momentum = linear * mass;
-            let by_half = Mat3::diagonal(rotational) * by_half.scaled(2.0 * per_step)
-                - Mat3::hat(body_spin) * so3_tangent(half * 2.0).scaled(2.0);
-            let by_turn = after * by_half * so3_tangent_inverse(half) * pose.rotation.transpose();
+            let by_turn = turns.momentum_by_turn(rotational, body_spin);
             let lost = resistance.lost;
-            let mean = Wrench::new((spin + spin_before) * 0.5, moved * (mass * per_step));
-            let change = Wrench::new(spin - spin_before, momentum - known.linear);
+            let after = Wrench::new(spin, momentum);
+            let (mean, change) = ((after + known) * 0.5, after - known);
             self.coordinate_rates[i] = Vec6::new(half, moved * 0.5) * (1.0 / self.of_rate);
             self.velocities[i] = Vec6::new(angular, linear);
-            self.momenta[i] = Wrench::new(spin, momentum);
+            self.momenta[i] = after;
             self.inertial[i] = Inertial {
                 exerts: change * (-per_step) - mean * lost,
                 by_turn: by_turn.scaled(-per_step - 0.5 * lost),

@@ -1,10 +1,12 @@
 //! Motion: rods, bodies and the joints between them, step by step in time.
 //!
 //! The nodes and elements are those of [`statics`](crate::statics), and so is the linear system: a [`Simulation`] solves for frames and wrenches at
-//! once, so a step may be as long as the motion that is looked for allows, however stiff the rods are against stretching. Inertia is lumped at the nodes.
+//! once, so a step may be as long as the motion that is looked for allows, however stiff the rods are against stretching. Inertia is lumped at the nodes, or that of
+//! the consistent [mass matrix](crate::assembly::MassMatrix).
 //! Nothing is damped but by what is asked for, and by the [`Integrator`] where its documentation says so.
 
 mod by_error;
+mod consistent;
 mod coordinates;
 mod energy;
 mod failure;
@@ -255,14 +257,20 @@ impl Simulation {
 
     /// Sets all going: how frames turn, in their own axes, rad/s, and shift in the world, m/s.
     pub fn set_velocities(&mut self, velocities: &[Vec6]) {
-        self.state.velocities.copy_from_slice(velocities);
-        for (i, momentum) in self.state.momenta.iter_mut().enumerate() {
-            let (pose, NodeInertia { mass, rotational }) = (&self.state.poses[i], self.work.inertia[i]);
+        let Self { state, work, .. } = self;
+        state.velocities.copy_from_slice(velocities);
+        for (i, momentum) in state.momenta.iter_mut().enumerate() {
+            let (pose, NodeInertia { mass, rotational }) = (&state.poses[i], work.inertia[i]);
             let spin = pose.rotation * rotational.scale(velocities[i].angular);
             let linear = velocities[i].linear * mass;
             *momentum = Wrench::new(spin, linear);
         }
-        self.state.past = Past::None;
+        for system in work.groups.iter().flat_map(|group| &group.rods) {
+            let nodes = system.nodes();
+            let (velocities, poses) = (&velocities[nodes.clone()], &state.poses[nodes.clone()]);
+            system.couplings.couple(velocities, poses, &mut state.momenta[nodes]);
+        }
+        state.past = Past::None;
     }
 }
 

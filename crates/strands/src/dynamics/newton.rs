@@ -1,8 +1,9 @@
 //! Newton's method for one stage of a step.
 
+use super::consistent::Couplings;
 use super::stage::{Resistance, Stage};
 use super::{Simulation, State, StepFailure, Taken};
-use crate::assembly::{Assembly, Member, Strand, Ties};
+use crate::assembly::{Assembly, MassMatrix, Member, Strand, Ties};
 use crate::math::{Pose, SimdLevel, Vec3, Wrench, larger};
 use crate::rod::{Kinematics, NodeInertia};
 use crate::statics::{Motion, Network, Nodal, Problem, Record, Slopes, Support, meet, rigid_compliance};
@@ -48,6 +49,7 @@ pub(super) struct RodSystem {
     round_off: f64,
     pub nodal: Nodal,
     pub record: Record,
+    pub couplings: Couplings,
 }
 
 /// All that a group's residual depends on beside its frames.
@@ -65,12 +67,17 @@ impl RodSystem {
     pub fn new(assembly: &Assembly, rod: usize) -> Self {
         let (first, first_element) = (assembly.nodes(rod).start, assembly.elements(rod).start);
         let mut record = Record::default();
-        record.fit(assembly.strands[rod].problem.rod.elements());
-        Self { rod, first, first_element, round_off: 0.0, nodal: Nodal::default(), record }
+        let strand = &assembly.strands[rod];
+        record.fit(strand.problem.rod.elements());
+        let couplings = match strand.mass_matrix {
+            MassMatrix::Lumped => Couplings::default(),
+            MassMatrix::Consistent => Couplings::new(&strand.problem.rod),
+        };
+        Self { rod, first, first_element, round_off: 0.0, nodal: Nodal::default(), record, couplings }
     }
 
     /// The frames of its nodes.
-    fn nodes(&self) -> Range<usize> {
+    pub fn nodes(&self) -> Range<usize> {
         self.first..self.first + self.record.poses.len()
     }
 
@@ -91,10 +98,12 @@ impl RodSystem {
         let elastic = strand.problem.rod.diagonal_points().unwrap_or_default();
         if stage.middle {
             stage.take_inertia_at_middle(nodes, given.inertia, poses, &resistance);
+            self.couplings.take(stage, [self.first, self.first_element], poses, given.lost, slopes);
             stage.take_secants(elements, self.first, elastic, viscosity, poses);
             return;
         }
         stage.take_inertia(nodes, given.inertia, poses, &resistance, (given.level, slopes));
+        self.couplings.take(stage, [self.first, self.first_element], poses, given.lost, slopes);
         if viscosity > 0.0 {
             stage.take_viscosity(elements, elastic, viscosity);
         }
@@ -105,7 +114,8 @@ impl RodSystem {
         let elastic = strand.problem.rod.diagonal_points().unwrap_or_default();
         let taken = &stage.points[self.elements()];
         let points = if stage.middle || strand.viscosity > 0.0 { taken } else { elastic };
-        Motion { points, inertial: &stage.inertial[self.nodes()] }
+        let coupled = if self.couplings.is_empty() { &[][..] } else { &stage.coupled[self.elements()] };
+        Motion { points, inertial: &stage.inertial[self.nodes()], coupled }
     }
 }
 

@@ -2,12 +2,12 @@
 
 use super::State;
 use super::coordinates::{Follow, LookBack, at_coordinates, coordinates};
-use super::inertia::TakeInertia;
+use super::inertia::{TakeInertia, Turns};
 use crate::assembly::Drag;
 use crate::element::DiagonalPoint;
 use crate::math::{Mat3, Pose, SimdLevel, Vec3, Vec6, Wrench, dispatch, so3_tangent};
 use crate::rod::{NodeInertia, exponents};
-use crate::statics::{Inertial, Slopes};
+use crate::statics::{Coupled, Inertial, Slopes};
 use core::ops::Range;
 
 /// What is known of a stage, and what comes of it.
@@ -28,6 +28,8 @@ pub(super) struct Stage {
     /// The laws of the elements with what their rates add, where a rod is viscous.
     pub points: Vec<DiagonalPoint>,
     pub inertial: Vec<Inertial>,
+    /// Of each element whose nodes' momenta are coupled.
+    pub coupled: Vec<Coupled>,
     /// What the air exerts on the frames, N.
     pub drags: Vec<Vec3>,
     /// What comes of it.
@@ -60,6 +62,8 @@ impl Stage {
         }
         let none = Inertial { exerts: Wrench::ZERO, by_turn: Mat3::ZERO, by_shift: Mat3::ZERO };
         self.inertial.resize(frames, none);
+        let none = Coupled { near_by_far: Mat3::ZERO, far_by_near: Mat3::ZERO, by_shift: 0.0 };
+        self.coupled.resize(elements, none);
         self.drags.clear();
         self.drags.resize(frames, Vec3::ZERO);
         self.coordinate_rates.resize(frames, Vec6::ZERO);
@@ -127,6 +131,17 @@ impl Stage {
     /// Where a frame would be without a rate, and how much a rate counts, s.
     pub fn without_rate(&self, frame: usize) -> (Pose, f64) {
         (at_coordinates(&self.base[frame], self.offsets[frame]), self.of_rate)
+    }
+
+    /// What of a momentum is exerted, where so much of it is lost, 1/s, and how a velocity changes with a place, 1/s.
+    pub fn of_momentum(&self, lost: f64) -> (f64, f64) {
+        let per_rate = 1.0 / self.of_rate;
+        if self.middle { (0.5 * (per_rate + lost), 2.0 * per_rate) } else { (per_rate + lost, per_rate) }
+    }
+
+    /// The axes in which the angular momentum of a frame is its inertia times its angular velocity: those of the frame, in the middle of a step at its end.
+    pub fn momentum_axes(&self, frame: usize, pose: &Pose) -> Mat3 {
+        if self.middle { Turns::of(self, frame, pose).axes } else { pose.rotation }
     }
 
     /// How a frame moves in the stage.

@@ -19,7 +19,7 @@ pub use section::Section;
 pub(crate) use shape::exponents;
 
 use crate::element::{DiagonalPoint, PointStrains, exponent};
-use crate::math::{Mat3, Pose, Strain, Vec3};
+use crate::math::{Mat3, Pose, Strain, Vec3, Vec6};
 
 /// Which strains are free.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
@@ -189,13 +189,21 @@ struct Slice {
     half_extent: [f64; 2],
 }
 
-/// The inertia that a node carries: a share of the rod about it, lumped.
+/// The inertia that a node carries: a share of the rod about it, lumped. Or that by which an element couples two of them.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct NodeInertia {
     /// Mass, kg.
     pub mass: f64,
     /// Rotational inertia about the node's `d1`, `d2` and `d3`, kg·m².
     pub rotational: Vec3,
+}
+
+impl NodeInertia {
+    /// Twice the kinetic energy (J) of what turns in these axes and shifts at a velocity.
+    pub(crate) fn of(&self, velocity: Vec6) -> f64 {
+        let Vec6 { angular, linear } = velocity;
+        angular.dot(self.rotational.scale(angular)) + linear.dot(linear) * self.mass
+    }
 }
 
 /// The law and the rest strain at one place of an element.
@@ -361,6 +369,17 @@ impl Rod {
     /// The inertia that each node carries.
     pub fn node_inertia(&self) -> &[NodeInertia] {
         &self.node_inertia
+    }
+
+    /// The inertia by which each element couples its two nodes where velocities are linear along it, `∫ N_a N_b` of that per length: beside the diagonal of
+    /// the consistent mass matrix, whose rows have the sums that [nodes carry](Self::node_inertia).
+    pub fn coupling_inertia(&self) -> impl Iterator<Item = NodeInertia> {
+        self.mesh.nodes().windows(2).map(|pair| {
+            // Simpson's rule: it is nothing at the ends.
+            let (middle, sixth) = (0.5 * (pair[0] + pair[1]), (pair[1] - pair[0]) / 6.0);
+            let slice = self.description.at(middle, middle);
+            NodeInertia { mass: sixth * slice.mass, rotational: slice.rotational * sixth }
+        })
     }
 
     /// Half the extent along `d1` and `d2` at each node, m.

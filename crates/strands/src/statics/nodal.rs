@@ -29,7 +29,8 @@ use elements::Look;
 pub(crate) use elements::take_strains;
 pub(crate) use elimination::Inertia;
 use elimination::{Block, Eliminate, Square, Substitute, pair, parts, seen_from_near, times};
-pub(crate) use motion::{Inertial, Motion};
+use motion::Coupling;
+pub(crate) use motion::{Coupled, Inertial, Motion};
 pub(crate) use network::Network;
 pub(crate) use second_variation::SecondVariation;
 use second_variation::TURNING;
@@ -86,6 +87,8 @@ pub(crate) struct Nodal<R = f64> {
     load_slopes: Vec<(usize, Square<R>)>,
     /// How what the change of its momentum exerts on each node of a rod that moves changes: the moment with a turn, the force with a shift.
     inertial_slopes: Vec<[Mat3<Vec3<R>>; 2]>,
+    /// Of each element of a rod that moves whose nodes' momenta are coupled.
+    couplings: Vec<Coupling<R>>,
     holds: Vec<Hold<R>>,
     /// Where the nodes are, from the axes' origin; of rods side by side, nothing.
     places: Vec<Vec3<R>>,
@@ -115,6 +118,7 @@ impl<R> Default for Nodal<R> {
             loads: Vec::new(),
             load_slopes: Vec::new(),
             inertial_slopes: Vec::new(),
+            couplings: Vec::new(),
             holds: Vec::new(),
             places: Vec::new(),
             follows: Vec::new(),
@@ -181,6 +185,7 @@ impl Nodal {
             None => self.linearise_any(rod, lent, state)?,
         };
         self.inertial_slopes.clear();
+        self.couplings.clear();
         self.since.clear();
         self.load(problem, state);
         Some(self.measure(problem, level, slack, state))

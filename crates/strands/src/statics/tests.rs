@@ -593,7 +593,7 @@ fn slopes_that_are_kept_turn_with_the_rod() {
     let level = SimdLevel::detect();
     let look = |nodal: &mut Nodal, slopes: Slopes, turn: Mat3, state: &Record| {
         let inertial = inertial(turn);
-        let motion = Motion { points, inertial: &inertial };
+        let motion = Motion { points, inertial: &inertial, coupled: &[] };
         nodal.linearise_moving(&problem, level, (1e-4, slopes), &motion, state)
     };
     let mut kept = Nodal::default();

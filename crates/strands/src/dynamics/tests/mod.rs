@@ -1,8 +1,9 @@
+mod consistent;
 mod held;
 mod network;
 
 use super::{Integrator, Settings, Simulation, Start};
-use crate::assembly::Strand;
+use crate::assembly::{MassMatrix, Strand};
 use crate::load::{Frame, NodalLoads, PointLoad};
 use crate::math::{Pose, Vec3, Vec6, Wrench};
 use crate::rod::{
@@ -47,6 +48,9 @@ const ALL: [Integrator; 6] = [
     Integrator::Sdirk4,
     Integrator::TrBdf2,
 ];
+
+/// Of either mass matrix.
+const BOTH: [MassMatrix; 2] = [MassMatrix::Lumped, MassMatrix::Consistent];
 
 #[test]
 fn integrators_have_their_order() {

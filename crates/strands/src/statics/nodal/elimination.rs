@@ -43,7 +43,7 @@ impl<R: Register> Kernel for Eliminate<'_, R> {
         if R::LANES == 1 {
             nodal.pivots.resize(n + 1, [[R::zero(); 6]; 6]);
         }
-        let Nodal { links, resists, loads, load_slopes, inertial_slopes, holds, .. } = nodal;
+        let Nodal { links, resists, couplings, loads, load_slopes, inertial_slopes, holds, .. } = nodal;
         let Nodal { follows, pivots, steps, others, other_steps, .. } = nodal;
         let columns = if others.is_empty() { OTHER } else { OTHER + 1 };
         let mut inertia = Inertia { negative: R::zero(), vanished: R::zero() };
@@ -95,7 +95,10 @@ impl<R: Register> Kernel for Eliminate<'_, R> {
                 Some(after) => {
                     see_from(&after.arm, &mut pivot, right);
                     add(&mut pivot, &after.stiffness);
-                    let upper = on_far(&after.stiffness, links[i].carried);
+                    let mut upper = on_far(&after.stiffness, links[i].carried);
+                    if let Some(coupling) = couplings.get(i) {
+                        add(&mut upper, &coupling.upper);
+                    }
                     for r in 0..6 {
                         right[r][..6].copy_from_slice(&upper[r]);
                     }
@@ -117,7 +120,8 @@ impl<R: Register> Kernel for Eliminate<'_, R> {
                 R::run(Expand { hold, after, follow: right });
             }
             if let Some(after) = after {
-                to_next(&after.stiffness, right, columns, &mut earlier);
+                let lower = couplings.get(i).map_or(&after.stiffness, |coupling| &coupling.lower);
+                to_next(lower, right, columns, &mut earlier);
             }
             if R::LANES == 1 {
                 (follows[i], pivots[i]) = (local, pivot);
@@ -144,7 +148,7 @@ impl Kernel for Substitute<'_> {
 
     #[inline(always)]
     fn run(self) {
-        let Nodal { links, resists, loads, held, follows, pivots, since, steps, .. } = self.nodal;
+        let Nodal { links, resists, couplings, loads, held, follows, pivots, since, steps, .. } = self.nodal;
         let (mut earlier, mut next_hold) = (Vec6::ZERO, 0);
         for i in 0..follows.len() {
             let after = resists.get(i);
@@ -169,7 +173,8 @@ impl Kernel for Substitute<'_> {
                 row[ACTING] = x;
             }
             if let Some(after) = after {
-                earlier = pair(times(&after.stiffness, &x)) - pull;
+                let lower = couplings.get(i).map_or(&after.stiffness, |coupling| &coupling.lower);
+                earlier = pair(times(lower, &x)) - pull;
             }
         }
         put_together(resists, follows, ACTING, steps);
@@ -235,7 +240,7 @@ fn see_from<R: Real>(arm: &Vec3<R>, pivot: &mut Square<R>, right: &mut Block<R>)
 
 /// `P T⁻¹`.
 #[inline(always)]
-fn see_columns_from<R: Real>(arm: &Vec3<R>, pivot: &mut Square<R>) {
+pub(super) fn see_columns_from<R: Real>(arm: &Vec3<R>, pivot: &mut Square<R>) {
     for row in pivot {
         let [a, b, d] = crossed(arm, row[3], row[4], row[5]);
         row[0] -= a;
@@ -413,11 +418,11 @@ fn substitute<R: Real>(factors: &Square<R>, x: &mut [R; 6]) {
 }
 
 /// What an eliminated node takes from the pivot after it and adds to what acts there: with `D` its pivot, `U` what stands beside that, `b` what acts and
-/// `F` the stiffness, `F D⁻¹ U` (of one rod its negative) and `F D⁻¹ b`.
+/// `L` how what acts on the next node changes with it (the element's stiffness, mostly), `L D⁻¹ U` (of one rod its negative) and `L D⁻¹ b`.
 #[inline(always)]
-fn to_next<R: Real>(stiffness: &Square<R>, follow: &Block<R>, columns: usize, next: &mut Block<R>) {
+fn to_next<R: Real>(lower: &Square<R>, follow: &Block<R>, columns: usize, next: &mut Block<R>) {
     if R::LANES == 1 {
-        multiply(stiffness, follow, next);
+        multiply(lower, follow, next);
         for row in next {
             for x in &mut row[..ACTING] {
                 *x = -*x;
@@ -426,7 +431,7 @@ fn to_next<R: Real>(stiffness: &Square<R>, follow: &Block<R>, columns: usize, ne
         return;
     }
     for c in 0..columns {
-        put_product(stiffness, column(follow, c), next, c);
+        put_product(lower, column(follow, c), next, c);
     }
 }
 

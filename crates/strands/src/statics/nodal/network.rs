@@ -305,12 +305,13 @@ impl Network {
                 let stiffness = &nodal.resists[node].stiffness;
                 let near = block_from(&to_origin, stiffness);
                 add(&mut block, &near);
-                self.add_block(
-                    frame,
-                    frame + 1,
-                    &negative(&block_from(&to_origin, &on_far(stiffness, after.carried))),
-                );
-                self.add_block(frame + 1, frame, &negative(&near));
+                let (mut upper, mut lower) = (on_far(stiffness, after.carried), near);
+                if let Some(coupling) = nodal.couplings.get(node) {
+                    add(&mut upper, &coupling.upper);
+                    lower = block_from(&to_origin, &coupling.lower);
+                }
+                self.add_block(frame, frame + 1, &negative(&block_from(&to_origin, &upper)));
+                self.add_block(frame + 1, frame, &negative(&lower));
             }
             self.add_block(frame, frame, &block);
             self.add_right(frame, nodal.acting(node).wrench_from(nodal.places[node]));
