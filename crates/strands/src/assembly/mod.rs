@@ -39,8 +39,8 @@ pub enum MassMatrix {
     #[default]
     Lumped,
     /// The kinetic energy is that of velocities that are linear along each element: of places in the world, of turns in the axes that turn along. So
-    /// it couples the momenta of neighbours, and the frequencies of axial and torsional vibration are too high, by as much as they are too low when lumped; those
-    /// of bending are too high by more (`ARCHITECTURE.md`).
+    /// it couples the momenta of neighbours, and the frequencies of axial and torsional vibration are too high, by as much as they are too low when lumped. Those
+    /// of bending are too high by more, but for the first mode of cantilevers and of free rods.
     Consistent,
 }
 

@@ -7,7 +7,8 @@
 //! ```
 //!
 //! with `m`, `J` of the lumped matrix and `μ`, `K` the [inertia that couples](crate::rod::Rod::coupling_inertia). It does not depend on where the frames
-//! are, so what acts changes momenta as ever, `d(m v_a + μ (v_b − v_a))/dt = f_a` for an end, and their sums are kept.
+//! are, so what acts changes momenta as ever, and their sums are kept: of the first node `d(m v_a + μ (v_b − v_a))/dt = f_a` and, with `R_a` how it is turned,
+//! `d(R_a (J Ω_a + K (Ω_b − Ω_a)))/dt = m_a`.
 
 use super::inertia::Turns;
 use super::stage::Stage;
@@ -33,15 +34,16 @@ impl Couplings {
     pub fn couple(&self, velocities: &[Vec6], poses: &[Pose], momenta: &mut [Wrench]) {
         for (e, inertia) in self.0.iter().enumerate() {
             let passed = passed(inertia, velocities[e], velocities[e + 1]);
-            momenta[e] += told_in(&poses[e].rotation, passed);
-            momenta[e + 1] -= told_in(&poses[e + 1].rotation, passed);
+            let [near, far] = told_in([&poses[e].rotation, &poses[e + 1].rotation], passed);
+            momenta[e] += near;
+            momenta[e + 1] += far;
         }
     }
 
     /// By how much `v·M v` is less than with the lumped matrix, J, for the nodes' velocities.
     pub fn less(&self, velocity: impl Fn(usize) -> Vec6) -> f64 {
         let elements = self.0.iter().enumerate();
-        elements.map(|(e, inertia)| inertia.of(velocity(e + 1) - velocity(e))).sum()
+        elements.map(|(e, inertia)| inertia.twice_energy(velocity(e + 1) - velocity(e))).sum()
     }
 
     /// Takes what the elements pass on into a stage that has what lumped inertia exerts, from a rod's first frame and first element on.
@@ -57,34 +59,34 @@ impl Couplings {
             return;
         }
         let (exerted, by_place) = stage.of_momentum(lost);
+        let mut near = (slopes == Slopes::Anew).then(|| Turns::of(stage, first, &poses[0]));
         for (e, inertia) in self.0.iter().enumerate() {
             let (a, b) = (first + e, first + e + 1);
+            let far = near.as_ref().map(|_| Turns::of(stage, b, &poses[e + 1]));
             let passed = passed(inertia, stage.velocities[a], stage.velocities[b]);
-            for (frame, pose, gets) in [(a, &poses[e], passed), (b, &poses[e + 1], passed * -1.0)] {
-                let momentum = told_in(&stage.momentum_axes(frame, pose), gets);
+            let axes = match (&near, &far) {
+                (Some(near), Some(far)) => [&near.axes, &far.axes],
+                // Where slopes are kept momenta are told in the frames' own axes.
+                _ => [&poses[e].rotation, &poses[e + 1].rotation],
+            };
+            for (frame, momentum) in [a, b].into_iter().zip(told_in(axes, passed)) {
                 stage.momenta[frame] += momentum;
                 stage.inertial[frame].exerts -= momentum * exerted;
             }
-        }
-        if slopes == Slopes::Kept {
-            return;
-        }
-        let mut near = Turns::of(stage, first, &poses[0]);
-        for (e, inertia) in self.0.iter().enumerate() {
-            let (a, b) = (first + e, first + e + 1);
-            let far = Turns::of(stage, b, &poses[e + 1]);
-            let passed = passed(inertia, stage.velocities[a], stage.velocities[b]).angular;
-            let (less, shift) = (inertia.rotational * -1.0, inertia.mass * exerted * by_place);
-            for (frame, turns, gets) in [(a, &near, passed), (b, &far, passed * -1.0)] {
-                let of = &mut stage.inertial[frame];
-                of.by_turn = of.by_turn - turns.momentum_by_turn(less, gets).scaled(exerted);
-                of.by_shift = of.by_shift + Mat3::IDENTITY.scaled(shift);
+            if let (Some(near), Some(far)) = (&near, &far) {
+                let (less, shift) = (inertia.rotational * -1.0, inertia.mass * exerted * by_place);
+                let gets = [passed.angular, passed.angular * -1.0];
+                for ((frame, turns), gets) in [(a, near), (b, far)].into_iter().zip(gets) {
+                    let of = &mut stage.inertial[frame];
+                    of.by_turn = of.by_turn - turns.momentum_by_turn(less, gets).scaled(exerted);
+                    of.by_shift = of.by_shift + Mat3::IDENTITY.scaled(shift);
+                }
+                let by = |on: &Turns, of: &Turns| {
+                    (on.axes * Mat3::diagonal(inertia.rotational) * of.by_turn).scaled(-exerted)
+                };
+                stage.coupled[first_element + e] =
+                    Coupled { near_by_far: by(near, far), far_by_near: by(far, near), by_shift: -shift };
             }
-            let by = |on: &Turns, of: &Turns| {
-                (on.axes * Mat3::diagonal(inertia.rotational) * of.by_turn).scaled(-exerted)
-            };
-            stage.coupled[first_element + e] =
-                Coupled { near_by_far: by(&near, &far), far_by_near: by(&far, &near), by_shift: -shift };
             near = far;
         }
     }
@@ -96,7 +98,10 @@ fn passed(inertia: &NodeInertia, near: Vec6, far: Vec6) -> Vec6 {
     Vec6::new(inertia.rotational.scale(apart.angular), apart.linear * inertia.mass)
 }
 
-/// A momentum in the world.
-fn told_in(axes: &Mat3, momentum: Vec6) -> Wrench {
-    Wrench::new(*axes * momentum.angular, momentum.linear)
+/// What the near node gets and the far one loses of it, in the world.
+fn told_in([near, far]: [&Mat3; 2], passed: Vec6) -> [Wrench; 2] {
+    [
+        Wrench::new(*near * passed.angular, passed.linear),
+        Wrench::new(*far * passed.angular, passed.linear) * -1.0,
+    ]
 }

@@ -81,7 +81,8 @@ impl Simulation {
             let less = system.couplings.less(|node| state.velocities[nodes.start + node]);
             let of = |i: usize| {
                 let velocity = state.velocities[i];
-                state.momenta[i].dot(twist(&state.poses[i], velocity)) - 0.5 * work.inertia[i].of(velocity)
+                state.momenta[i].dot(twist(&state.poses[i], velocity))
+                    - 0.5 * work.inertia[i].twice_energy(velocity)
             };
             nodes.map(of).sum::<f64>() + 0.5 * less
         };
@@ -153,7 +154,7 @@ impl Simulation {
             }
         }
         for (frame, inertia) in self.work.inertia.iter().enumerate() {
-            power.dissipated += self.settings.mass_damping * inertia.of(stage.velocity(frame));
+            power.dissipated += self.settings.mass_damping * inertia.twice_energy(stage.velocity(frame));
         }
         let drags = stage.drags.iter().enumerate();
         power.dissipated -= drags.map(|(frame, force)| force.dot(stage.velocity(frame).linear)).sum::<f64>();

@@ -213,7 +213,7 @@ impl Simulation {
     }
 
     /// The same, to change loads, drag and wind, or what is held, between steps: all at once, so rates of before are forgotten. The rods, their numbers of
-    /// nodes, the bodies' inertia and the joints stay.
+    /// nodes, their mass matrices, the bodies' inertia and the joints stay.
     pub fn assembly_mut(&mut self) -> &mut Assembly {
         if matches!(self.state.past, Past::Rates { .. }) {
             self.state.past = Past::None;
@@ -236,7 +236,7 @@ impl Simulation {
         &self.state
     }
 
-    /// Goes to a state of this simulation, or of another one of the same assembly.
+    /// Goes to a state of this simulation, or of another one of the same assembly, the mass matrices too: their momenta are other ones.
     ///
     /// # Errors
     /// Where it is of another assembly, by its numbers or by where joints tie, or no step can begin from it.

@@ -2,7 +2,7 @@
 
 use super::State;
 use super::coordinates::{Follow, LookBack, at_coordinates, coordinates};
-use super::inertia::{TakeInertia, Turns};
+use super::inertia::TakeInertia;
 use crate::assembly::Drag;
 use crate::element::DiagonalPoint;
 use crate::math::{Mat3, Pose, SimdLevel, Vec3, Vec6, Wrench, dispatch, so3_tangent};
@@ -137,11 +137,6 @@ impl Stage {
     pub fn of_momentum(&self, lost: f64) -> (f64, f64) {
         let per_rate = 1.0 / self.of_rate;
         if self.middle { (0.5 * (per_rate + lost), 2.0 * per_rate) } else { (per_rate + lost, per_rate) }
-    }
-
-    /// The axes in which the angular momentum of a frame is its inertia times its angular velocity: those of the frame, in the middle of a step at its end.
-    pub fn momentum_axes(&self, frame: usize, pose: &Pose) -> Mat3 {
-        if self.middle { Turns::of(self, frame, pose).axes } else { pose.rotation }
     }
 
     /// How a frame moves in the stage.

@@ -189,7 +189,7 @@ struct Slice {
     half_extent: [f64; 2],
 }
 
-/// The inertia that a node carries: a share of the rod about it, lumped. Or that by which an element couples two of them.
+/// The inertia that a node carries: a share of the rod about it, lumped; or that by which an element couples two of them.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct NodeInertia {
     /// Mass, kg.
@@ -200,7 +200,7 @@ pub struct NodeInertia {
 
 impl NodeInertia {
     /// Twice the kinetic energy (J) of what turns in these axes and shifts at a velocity.
-    pub(crate) fn of(&self, velocity: Vec6) -> f64 {
+    pub(crate) fn twice_energy(&self, velocity: Vec6) -> f64 {
         let Vec6 { angular, linear } = velocity;
         angular.dot(self.rotational.scale(angular)) + linear.dot(linear) * self.mass
     }
@@ -371,14 +371,18 @@ impl Rod {
         &self.node_inertia
     }
 
-    /// The inertia by which each element couples its two nodes where velocities are linear along it, `∫ N_a N_b` of that per length: beside the diagonal of
-    /// the consistent mass matrix, whose rows have the sums that [nodes carry](Self::node_inertia).
+    /// The inertia by which each element couples its two nodes in the consistent mass matrix: beside its diagonal, and taken from what
+    /// [nodes carry](Self::node_inertia) on it, so that rows have the sums that these do. Of a rod that is the same all along an element, `∫ N_a N_b` of its inertia per
+    /// length, with `N` linear. With `m_a` and `m_b` of the element's shares at its nodes it is `2 m_a m_b / 3 (m_a + m_b)`, which keeps the matrix positive
+    /// however an element tapers.
     pub fn coupling_inertia(&self) -> impl Iterator<Item = NodeInertia> {
         self.mesh.nodes().windows(2).map(|pair| {
-            // Simpson's rule: it is nothing at the ends.
-            let (middle, sixth) = (0.5 * (pair[0] + pair[1]), (pair[1] - pair[0]) / 6.0);
-            let slice = self.description.at(middle, middle);
-            NodeInertia { mass: sixth * slice.mass, rotational: slice.rotational * sixth }
+            let (middle, half) = (0.5 * (pair[0] + pair[1]), 0.5 * (pair[1] - pair[0]));
+            let [a, b] = [pair[0], pair[1]].map(|s| self.description.at(s, middle));
+            let between = |a: f64, b: f64| if a + b > 0.0 { 2.0 / 3.0 * half * a * b / (a + b) } else { 0.0 };
+            let [x, y, z] = [|v: Vec3| v.x, |v: Vec3| v.y, |v: Vec3| v.z]
+                .map(|of| between(of(a.rotational), of(b.rotational)));
+            NodeInertia { mass: between(a.mass, b.mass), rotational: Vec3::new(x, y, z) }
         })
     }
 

@@ -4,7 +4,9 @@ use super::{ALL, BOTH, rod, suture};
 use crate::assembly::{MassMatrix, Strand};
 use crate::dynamics::{Integrator, Settings, Simulation, Start};
 use crate::math::{Pose, Vec3, Vec6};
-use crate::rod::{Kinematics, Law, Material, Order, Profile, Rod, RodDescription, Stiffness};
+use crate::rod::{
+    Kinematics, Law, Material, Order, Profile, Rod, RodDescription, Section, Station, Stiffness,
+};
 use crate::statics::{Problem, Support};
 
 /// Free, and with the consistent mass matrix.
@@ -40,7 +42,7 @@ fn its_energy_is_that_of_velocities_linear_along_the_elements() {
     let energy: f64 = (0..6).map(|k| 0.5 * 7.0 * inertia[k] * square(a[k], b[k])).sum();
     let off = simulation.energy().kinetic / energy - 1.0;
     assert!(off.abs() < 1e-14, "{off:e}");
-    // Half of the ends' differences: the mean velocity times the mass.
+    // Sums of rows are those of the lumped matrix.
     let (momentum, _) = simulation.momentum();
     let mean = (Vec6::from(a) + Vec6::from(b)).linear * (0.5 * strand.problem.rod.mass());
     assert!((momentum - mean).norm() < 1e-14 * mean.norm(), "{momentum:?} {mean:?}");
@@ -156,4 +158,52 @@ fn an_inextensible_thread_swings_with_either_mass_matrix() {
     let apart = (lumped - consistent).norm();
     assert!(apart > 1e-8 && apart < 1e-4, "{apart:e}");
     assert!(many <= few + few / 5, "{many} iterations, and {few} where it is lumped");
+}
+
+#[test]
+fn what_mass_damping_takes_is_in_the_budget() {
+    let settings = Settings {
+        integrator: Integrator::Midpoint,
+        time_step: 1e-3,
+        tolerance: 1e-12,
+        mass_damping: 3.0,
+        ..Settings::default()
+    };
+    let mut simulation = moving(free(suture(10)), settings, thrown);
+    let began = simulation.energy().total();
+    for _ in 0..200 {
+        simulation.step().unwrap();
+    }
+    let energy = simulation.energy();
+    assert!(energy.dissipated > 0.5 * began, "{energy:?}");
+    assert!((energy.total() / began - 1.0).abs() < 1e-9, "{energy:?} of {began:e}");
+}
+
+#[test]
+fn a_needle_as_pointed_as_it_may_be_keeps_its_energy() {
+    let material = Material::from_poisson(2e9, 0.4, 1300.0).unwrap();
+    let station = |s: f64, radius: f64| Station { s, section: Section::Circle { radius }, material };
+    let description = RodDescription {
+        length: 0.1,
+        kinematics: Kinematics::Cosserat,
+        profile: Profile::Stations(vec![station(0.0, 1e-3), station(0.1, 1e-3 / 40.0)]),
+        rest: Default::default(),
+        base: Pose::IDENTITY,
+    };
+    let needle = Rod::with_elements(description, 10, &[], Order::Second).unwrap();
+    let settings = Settings {
+        integrator: Integrator::Midpoint,
+        time_step: 1e-3,
+        tolerance: 1e-11,
+        ..Settings::default()
+    };
+    let mut simulation = moving(free(needle), settings, thrown);
+    let began = simulation.energy();
+    assert!(began.kinetic > 0.0, "{began:?}");
+    for _ in 0..300 {
+        simulation.step().unwrap();
+        let energy = simulation.energy();
+        let drift = (energy.total() / began.total() - 1.0).abs();
+        assert!(energy.kinetic > 0.0 && drift < 1e-7, "{drift:e}: {energy:?}");
+    }
 }

@@ -418,7 +418,7 @@ fn substitute<R: Real>(factors: &Square<R>, x: &mut [R; 6]) {
 }
 
 /// What an eliminated node takes from the pivot after it and adds to what acts there: with `D` its pivot, `U` what stands beside that, `b` what acts and
-/// `L` how what acts on the next node changes with it (the element's stiffness, mostly), `L D⁻¹ U` (of one rod its negative) and `L D⁻¹ b`.
+/// `L` how what acts on the next node changes with it (the element's stiffness, and what couples momenta), `L D⁻¹ U` (of one rod its negative) and `L D⁻¹ b`.
 #[inline(always)]
 fn to_next<R: Real>(lower: &Square<R>, follow: &Block<R>, columns: usize, next: &mut Block<R>) {
     if R::LANES == 1 {
