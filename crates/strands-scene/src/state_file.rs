@@ -4,6 +4,7 @@ use core::fmt;
 
 use serde::{Deserialize, Serialize};
 use strands::assembly::MassMatrix;
+use strands::contact::{Contact, Toucher};
 use strands::dynamics::{Means, Past, Power, State};
 use strands::math::{Mat3, Pose, Vec3, Vec6};
 use thiserror::Error;
@@ -57,6 +58,8 @@ struct Written {
     power: [f64; 2],
     next_step: f64,
     past: WrittenPast,
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
+    contacts: Vec<WrittenContact>,
 }
 
 /// All that is read before the format is known.
@@ -125,6 +128,24 @@ enum WrittenPast {
 
 #[derive(Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
+struct WrittenContact {
+    between: [WrittenToucher; 2],
+    point: [f64; 3],
+    normal: [f64; 3],
+    gap: f64,
+    force: [f64; 3],
+}
+
+#[derive(Serialize, Deserialize)]
+#[serde(rename_all = "snake_case", deny_unknown_fields)]
+enum WrittenToucher {
+    Element { rod: usize, element: usize },
+    Node { rod: usize, node: usize },
+    Obstacle(usize),
+}
+
+#[derive(Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
 struct WrittenMeans {
     velocity: Row<6>,
     momentum: Row<6>,
@@ -147,6 +168,7 @@ pub fn state_json(model: &Model, state: &State) -> String {
         worked: state.worked,
         power: [state.power.dissipated, state.power.worked],
         next_step: state.next_step,
+        contacts: state.contacts.iter().map(contact_out).collect(),
         past: match &state.past {
             Past::None => WrittenPast::None,
             Past::Before { poses, momenta } => {
@@ -190,6 +212,7 @@ pub fn read_state(model: &Model, text: &str) -> Result<State, StateError> {
         worked: written.worked,
         power: Power { dissipated, worked },
         next_step: written.next_step,
+        contacts: written.contacts.into_iter().map(contact_in).collect(),
         past: match written.past {
             WrittenPast::None => Past::None,
             WrittenPast::Before { poses, momenta } => {
@@ -228,6 +251,27 @@ fn same<T: PartialEq + fmt::Display>(there: &[T], here: &[T]) -> Result<(), Stat
         }
     }
     Ok(())
+}
+
+fn contact_out(contact: &Contact) -> WrittenContact {
+    let between = contact.between.map(|toucher| match toucher {
+        Toucher::Element { rod, element } => WrittenToucher::Element { rod, element },
+        Toucher::Node { rod, node } => WrittenToucher::Node { rod, node },
+        Toucher::Obstacle(number) => WrittenToucher::Obstacle(number),
+    });
+    let Contact { point, normal, gap, force, .. } = *contact;
+    let [point, normal, force] = [point, normal, force].map(Vec3::to_array);
+    WrittenContact { between, point, normal, gap, force }
+}
+
+fn contact_in(written: WrittenContact) -> Contact {
+    let between = written.between.map(|toucher| match toucher {
+        WrittenToucher::Element { rod, element } => Toucher::Element { rod, element },
+        WrittenToucher::Node { rod, node } => Toucher::Node { rod, node },
+        WrittenToucher::Obstacle(number) => Toucher::Obstacle(number),
+    });
+    let [point, normal, force] = [written.point, written.normal, written.force].map(Vec3::from);
+    Contact { between, point, normal, gap: written.gap, force }
 }
 
 fn sixes_out(sixes: &[Vec6]) -> Row<6> {

@@ -183,8 +183,6 @@ fn what_has_no_effect_is_a_note() {
         assert!(warnings(&remarks).is_empty(), "{remarks:?}");
         remarks.iter().map(|remark| remark.said.key().to_owned()).collect()
     };
-    let parts = ("[rods.wire]", "[dynamics]\ntime_step = 1e-3\n\n[contact]\nfriction = 0.3\n\n[rods.wire]");
-    assert_eq!(notes(&[parts]), ["contact"]);
     assert_eq!(notes(&[("gravity = [0.0, 0.0, -9.81]", ""), NO_FORCE]), ["rods.wire"]);
     assert_eq!(notes(&[("at = \"end\"", "at = \"start\"")]), ["rods.wire.loads[0].at"]);
 }

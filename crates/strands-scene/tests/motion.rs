@@ -3,6 +3,7 @@
 use serde_json::Value;
 use std::collections::HashMap;
 use std::io::{Cursor, Read};
+use strands::contact::{Contact, Toucher};
 use strands::math::{Pose, Vec3, Vec6, Wrench};
 use strands::statics::Reaction;
 use strands_scene::write::{
@@ -66,6 +67,13 @@ fn moved() -> (Model, Vec<Frame>) {
             name: "needle".into(),
             pose: Pose { position: Vec3::new(0.1, 0.2, time), ..Pose::IDENTITY },
             velocity: Vec6::new(Vec3::ZERO, Vec3::Z),
+        }],
+        contacts: vec![Contact {
+            between: [Toucher::Element { rod: 0, element: 3 }, Toucher::Obstacle(0)],
+            point: Vec3::new(0.1, 0.2, 0.3),
+            normal: Vec3::Z,
+            gap: 1e-6,
+            force: Vec3::new(0.0, 0.1, time),
         }],
         energy: FrameEnergy { kinetic: time, elastic: 2.0, load: -1.0, dissipated: 0.5, work: None },
         iterations: 7,

@@ -325,6 +325,24 @@ fn dynamics() -> impl Strategy<Value = DynamicsFile> {
         )
 }
 
+fn obstacle() -> impl Strategy<Value = ObstacleFile> {
+    let shape = prop::sample::select(vec![ObstacleName::Plane, ObstacleName::Sphere, ObstacleName::Capsule]);
+    let place = (prop::option::of(vector()), prop::option::of(vector()));
+    let turned = prop::option::of([number(), number(), number(), number()]);
+    let sizes = [positive(), positive(), positive()].map(prop::option::of);
+    (shape, place, turned, sizes).prop_map(
+        |(shape, (position, normal), orientation, [radius, length, friction])| ObstacleFile {
+            shape,
+            position,
+            normal,
+            orientation,
+            radius,
+            length,
+            friction,
+        },
+    )
+}
+
 fn scene() -> impl Strategy<Value = SceneFile> {
     (
         word(),
@@ -333,7 +351,11 @@ fn scene() -> impl Strategy<Value = SceneFile> {
         prop::collection::vec((word(), rod()), 0..3),
         (prop::collection::vec(body(), 0..3), prop::collection::vec(joint(), 0..3)),
         (prop::option::of(coupling()), prop::option::of(solver()), prop::option::of(dynamics())),
-        (prop::option::of(vector()), prop::option::of(prop::option::of(positive()))),
+        (
+            prop::option::of(vector()),
+            prop::option::of(prop::option::of(positive())),
+            prop::collection::vec(obstacle(), 0..3),
+        ),
     )
         .prop_map(
             |(
@@ -343,7 +365,7 @@ fn scene() -> impl Strategy<Value = SceneFile> {
                 rods,
                 (bodies, joints),
                 (coupling, solver, dynamics),
-                (wind, contact),
+                (wind, contact, obstacles),
             )| SceneFile {
                 format: 1,
                 name,
@@ -355,6 +377,7 @@ fn scene() -> impl Strategy<Value = SceneFile> {
                 coupling,
                 wind: wind.map(|velocity| WindFile { velocity }),
                 contact: contact.map(|friction| ContactFile { friction }),
+                obstacles,
                 solver,
                 dynamics,
             },

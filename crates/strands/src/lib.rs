@@ -50,11 +50,13 @@
 //! | [`statics`] | equilibrium: sweeps, shooting, ways to afar, stability, meshes for a tolerance |
 //! | [`assembly`] | several rods, rigid bodies, and the joints between them |
 //! | [`dynamics`] | motion: inertia, integrators, damping, energy |
+//! | [`contact`] | surfaces that touch |
 //! | [`coupling`] | the hand that holds a strand: a virtual coupling |
 //!
 //! The crate does no I/O and starts no threads, and builds for WebAssembly.
 
 pub mod assembly;
+pub mod contact;
 pub mod coupling;
 pub mod dynamics;
 mod element;

@@ -361,6 +361,7 @@ fn frame(model: &Model, simulation: &Simulation, iterations: usize, residual: f6
         time: state.time,
         rods: assembly.strands.iter().enumerate().map(moved).collect(),
         bodies: model.bodies.iter().zip(assembly.first_body()..).map(body).collect(),
+        contacts: state.contacts.clone(),
         energy,
         iterations,
         residual,

@@ -2,6 +2,7 @@
 
 mod body;
 mod check;
+mod contact;
 mod hold;
 mod joint;
 mod load;
@@ -72,6 +73,8 @@ pub(crate) fn model(
         bodies: body::bodies(&context)?,
         joints: Vec::new(),
         wind: file.wind.as_ref().map_or(Vec3::ZERO, |wind| wind.velocity.into()),
+        surfaces: contact::surfaces(&context)?,
+        obstacles: contact::obstacles(&context)?,
         settings,
         dynamics,
     };

@@ -110,11 +110,8 @@ pub(super) fn solver(document: &Document, file: &SceneFile) -> Result<Settings, 
     })
 }
 
-/// Checks what is said of motion and contact.
+/// Checks what is said of motion.
 pub(super) fn check_motion(document: &Document, file: &SceneFile) -> Result<(), SceneError> {
-    if let Some(friction) = file.contact.as_ref().and_then(|contact| contact.friction) {
-        document.not_negative(&KeyPath::of("contact").key("friction"), friction)?;
-    }
     let Some(dynamics) = &file.dynamics else { return Ok(()) };
     let table = KeyPath::of("dynamics");
     let positive = [

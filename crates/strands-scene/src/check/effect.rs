@@ -1,4 +1,4 @@
-//! What has no effect: keys for contact, wind without drag, velocities where motion starts at rest, loads that go straight into a support, rods that
+//! What has no effect: wind without drag, velocities where motion starts at rest, loads that go straight into a support, rods that
 //! nothing loads.
 
 use super::{Remarks, View, metres};
@@ -11,15 +11,8 @@ use strands::math::Vec6;
 /// How far a support may be from where the unloaded rod is, as a part of the length and in rad, and still leave it as it is.
 const AS_IT_IS: f64 = 1e-9;
 
-/// Looks at the keys for contact, wind and velocities.
+/// Looks at the keys for wind and velocities.
 pub(super) fn look(remarks: &mut Remarks<'_>, file: &SceneFile, model: &Model) {
-    if file.contact.is_some() {
-        remarks.note(
-            &KeyPath::of("contact"),
-            "`[contact]` has no effect: a rod touches nothing".to_owned(),
-            "it is kept for later versions, and may stay",
-        );
-    }
     if file.wind.is_some() && model.rods.iter().all(|rod| rod.drag == Drag::default()) {
         remarks.note(
             &KeyPath::of("wind"),

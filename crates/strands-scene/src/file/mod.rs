@@ -3,11 +3,13 @@
 //! SI units throughout; positions `[x, y, z]` and quaternions `[w, x, y, z]` in the world frame; `s` in metres of rest length from the
 //! rod's start. Nothing here is checked beyond its type: that is done when the [`Model`](crate::Model) is built.
 
+mod contact;
 mod held;
 mod network;
 mod rod;
 mod settings;
 
+pub use contact::{ContactFile, ObstacleFile, ObstacleName};
 pub use held::{
     CouplingFile, FixName, FrameName, HandError, HandFile, KeyframeFile, LoadFile, Place, SupportFile,
 };
@@ -19,7 +21,7 @@ pub use rod::{
     SectionsFile, ShapeName, StiffnessFile,
 };
 pub use settings::{
-    ContactFile, DynamicsFile, IntegratorName, JacobianName, MethodName, SchemeName, SolverFile, WindFile,
+    DynamicsFile, IntegratorName, JacobianName, MethodName, SchemeName, SolverFile, WindFile,
 };
 
 use indexmap::IndexMap;
@@ -56,9 +58,12 @@ pub struct SceneFile {
     /// How the medium around moves. It acts on rods that have `drag`, and has no effect on a static solve.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub wind: Option<WindFile>,
-    /// Contact. A static solve knows no contact: it has no effect on it.
+    /// Contact of rods with themselves, each other and obstacles. A static solve knows no contact: it has no effect on it.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub contact: Option<ContactFile>,
+    /// What stands still and is touched, with `[contact]`.
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
+    pub obstacles: Vec<ObstacleFile>,
     /// How to solve.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub solver: Option<SolverFile>,

@@ -67,15 +67,6 @@ pub enum SchemeName {
     Multistep,
 }
 
-/// Contact. A static solve knows no contact: it has no effect on it.
-#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize, JsonSchema)]
-#[serde(deny_unknown_fields, expecting = "a table")]
-pub struct ContactFile {
-    /// Coulomb's coefficient of friction. Default 0.
-    #[serde(default, skip_serializing_if = "Option::is_none")]
-    pub friction: Option<f64>,
-}
-
 /// Wind, or a current: how the medium around moves.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields, expecting = "a table")]

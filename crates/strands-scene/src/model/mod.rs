@@ -10,6 +10,7 @@ pub use motion::OUTPUT_RATE;
 
 use crate::file::DynamicsFile;
 use strands::assembly::{Drag, Joint, MassMatrix};
+use strands::contact::{Obstacle, Surfaces};
 use strands::coupling::VirtualCoupling;
 use strands::load::{DistributedLoad, DistributedPull, NodalLoads, PointLoad, PointPull};
 use strands::math::Vec3;
@@ -35,6 +36,10 @@ pub struct Model {
     pub joints: Vec<Joint>,
     /// How the medium around moves, world axes, m/s.
     pub wind: Vec3,
+    /// How surfaces touch, where they do.
+    pub surfaces: Option<Surfaces>,
+    /// What stands still and is touched, in the order of the file.
+    pub obstacles: Vec<Obstacle>,
     /// How to solve.
     pub settings: Settings,
     /// How to simulate motion, as the scene says it.

@@ -24,6 +24,8 @@ impl Model {
             joints: self.joints.clone(),
             moving: rods.chain(bodies).collect(),
             wind: self.wind,
+            surfaces: self.surfaces,
+            obstacles: self.obstacles.clone(),
         }
     }
 
@@ -55,6 +57,7 @@ impl Model {
         let (written, default) = (&self.dynamics, dynamics::Settings::default());
         let chosen = written.tolerance.is_some();
         let integrator = match written.integrator {
+            None if self.surfaces.is_some() => Integrator::ImplicitEuler,
             None if chosen && self.inextensible().is_none() => Integrator::Sdirk4,
             None if chosen => Integrator::TrBdf2,
             None => default.integrator,

@@ -14,6 +14,7 @@ pub use joint::{Attachment, Joint, JointKind};
 pub use keyframes::Keyframes;
 pub(crate) use ties::{Cluster, Ties};
 
+use crate::contact::{Obstacle, Surfaces};
 use crate::math::{Pose, Vec3};
 use crate::statics::{Problem, Support};
 use core::ops::Range;
@@ -72,6 +73,10 @@ pub struct Assembly {
     pub moving: Vec<Keyframes>,
     /// How the medium around moves, m/s, world axes.
     pub wind: Vec3,
+    /// How surfaces touch, where they do; else all passes through all.
+    pub surfaces: Option<Surfaces>,
+    /// What stands still and is touched.
+    pub obstacles: Vec<Obstacle>,
 }
 
 /// A frame of an assembly.
@@ -130,6 +135,8 @@ impl Default for Assembly {
             joints: Vec::new(),
             moving: Vec::new(),
             wind: Vec3::ZERO,
+            surfaces: None,
+            obstacles: Vec::new(),
         }
     }
 }

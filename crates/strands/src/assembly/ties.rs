@@ -147,6 +147,13 @@ pub(crate) struct Cluster {
     pub bodies: Vec<usize>,
 }
 
+impl Cluster {
+    /// All rods and bodies.
+    pub fn of_all(assembly: &Assembly) -> Self {
+        Self { rods: (0..assembly.strands.len()).collect(), bodies: (0..assembly.bodies.len()).collect() }
+    }
+}
+
 impl Assembly {
     /// What moves independently of all else.
     pub(crate) fn clusters(&self, ties: &Ties) -> Vec<Cluster> {

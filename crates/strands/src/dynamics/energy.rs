@@ -156,6 +156,7 @@ impl Simulation {
         for (frame, inertia) in self.work.inertia.iter().enumerate() {
             power.dissipated += self.settings.mass_damping * inertia.twice_energy(stage.velocity(frame));
         }
+        power.dissipated += self.work.contacts.power();
         let drags = stage.drags.iter().enumerate();
         power.dissipated -= drags.map(|(frame, force)| force.dot(stage.velocity(frame).linear)).sum::<f64>();
         power

@@ -1,6 +1,7 @@
 //! What can go wrong in motion.
 
 use crate::assembly::AssemblyError;
+use crate::contact::Toucher;
 use crate::statics::SolveFailure;
 use thiserror::Error;
 
@@ -33,6 +34,14 @@ pub enum StepFailure {
         /// The residuals until then.
         history: Vec<f64>,
     },
+    /// What holds a rod would take it through a surface.
+    #[error("at {} s supports would, in a step of {} s, take a rod through a surface", seconds(*time), seconds(*step))]
+    Blocked {
+        /// When, s.
+        time: f64,
+        /// The step, s.
+        step: f64,
+    },
     /// What acts in a step so short cannot be told from the round-off of where the frames are.
     #[error("at {} s a step of {} s is too short: round-off leaves a residual of {left:.1e}", seconds(*time), seconds(*step))]
     TooShort {
@@ -50,6 +59,7 @@ impl StepFailure {
     pub(super) fn in_step(mut self, began: f64, seconds: f64) -> Self {
         let (Self::NotConverged { time, step, .. }
         | Self::Singular { time, step, .. }
+        | Self::Blocked { time, step }
         | Self::TooShort { time, step, .. }) = &mut self;
         (*time, *step) = (began, seconds);
         self
@@ -103,6 +113,18 @@ pub enum SimulationError {
         "steps of bounded cost are not for the midpoint rule, which keeps energy only where they are solved: take \"bdf2\""
     )]
     UnboundedMidpoint,
+    /// Methods that look back, or ahead, on steps without impacts do not know of them.
+    #[error("what touches moves by \"implicit_euler\" only, not by \"{0}\"")]
+    NoContactBy(&'static str),
+    /// Bodies have no surfaces yet, and what joints tie overlaps.
+    #[error("contact is for rods and obstacles, without bodies and joints: leave out the contact, or these")]
+    NoContactOfBodies,
+    /// Surfaces pass into each other where all starts.
+    #[error("where all starts {} passes into {}: put them apart", between[0], between[1])]
+    Overlap {
+        /// Which.
+        between: [Toucher; 2],
+    },
     /// At rest a rod would not be where it is held.
     #[error(
         "in its rest shape rod {rod} is not where it is held at s = {s} m: start in equilibrium, or hold it there"

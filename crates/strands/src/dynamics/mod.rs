@@ -7,6 +7,7 @@
 
 mod by_error;
 mod consistent;
+mod contacts;
 mod coordinates;
 mod energy;
 mod failure;
@@ -31,6 +32,7 @@ use crate::assembly::{Assembly, Body, Cluster, JointKind, Member, Strand, Ties};
 use crate::math::{Pose, SimdLevel, Vec3, Vec6, Wrench};
 use crate::rod::{NodeInertia, Order};
 use crate::statics::{Network, Problem, Support};
+use contacts::Contacts;
 use core::ops::Range;
 use newton::{Group, RodSystem};
 use stage::Stage;
@@ -151,6 +153,7 @@ struct Work {
     /// The nodes and the elements of viscous rods.
     viscous: Vec<(Range<usize>, Range<usize>)>,
     history: Vec<f64>,
+    contacts: Contacts,
 }
 
 impl Simulation {
@@ -176,10 +179,13 @@ impl Simulation {
         }
         inertia.extend(assembly.bodies.iter().map(|body| body.inertia));
         lengths.resize(inertia.len(), 0.0);
-        let groups = assembly.clusters(&ties).into_iter().map(|Cluster { rods, bodies }| {
+        let touch = assembly.surfaces.is_some();
+        let clusters = if touch { vec![Cluster::of_all(&assembly)] } else { assembly.clusters(&ties) };
+        let groups = clusters.into_iter().map(|Cluster { rods, bodies }| {
             let is_tied = |rod: &usize| assembly.nodes(*rod).any(|frame| ties.tied[frame]);
             let alone = bodies.is_empty() && !rods.iter().any(is_tied);
-            let network = (!alone).then(|| Network::new(&assembly, &ties, &rods, &bodies));
+            let network = (!alone || touch)
+                .then(|| Network::new(&assembly, &ties, &rods, &bodies, core::iter::empty()));
             let rods = rods.iter().map(|rod| RodSystem::new(&assembly, *rod)).collect();
             Group { rods, bodies, network }
         });
@@ -199,6 +205,7 @@ impl Simulation {
             strain_rates: Vec::new(),
             viscous: Vec::new(),
             history: Vec::new(),
+            contacts: Contacts::default(),
         };
         let first = assembly.strands.first().map(|strand| strand.problem.rod.description().base.position);
         let origin = first.unwrap_or(Vec3::ZERO);
@@ -316,6 +323,14 @@ fn check(assembly: &Assembly, settings: &Settings) -> Result<(), SimulationError
         setting("the local error", error, positive(error), "greater than 0")?;
         if integrator.embedding().is_none() {
             return Err(SimulationError::NoErrorOf(integrator.name()));
+        }
+    }
+    if assembly.surfaces.is_some() {
+        if integrator != Integrator::ImplicitEuler {
+            return Err(SimulationError::NoContactBy(integrator.name()));
+        }
+        if !(assembly.bodies.is_empty() && assembly.joints.is_empty()) {
+            return Err(SimulationError::NoContactOfBodies);
         }
     }
     let hinges = assembly.joints.iter().any(|joint| joint.kind == JointKind::Hinge);

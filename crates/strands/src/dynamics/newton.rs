@@ -1,9 +1,11 @@
 //! Newton's method for one stage of a step.
 
 use super::consistent::Couplings;
+use super::contacts::Contacts;
 use super::stage::{Resistance, Stage};
 use super::{Simulation, State, StepFailure, Taken};
 use crate::assembly::{Assembly, MassMatrix, Member, Strand, Ties};
+use crate::contact::Contact;
 use crate::math::{Pose, SimdLevel, Vec3, Wrench, larger};
 use crate::rod::{Kinematics, NodeInertia};
 use crate::statics::{Motion, Network, Nodal, Problem, Record, Slopes, Support, meet, rigid_compliance};
@@ -25,6 +27,13 @@ const SERVES: f64 = 1e-2;
 
 /// What a guess may leave over, beside what a solution may: else what is nearly at rest would stay where it is.
 const OF_GUESS: f64 = 1e-2;
+
+/// So often at most a step is shortened until no surface passes through another.
+const SHORTENED: usize = 20;
+/// Friction is told anew where no more than this part of what slips that sticks is left over of all else.
+const ANCHORED: f64 = 1e-1;
+/// So much of what surfaces allow is taken.
+const WITHIN: f64 = 0.9;
 
 /// In a stage so long, s, nothing accelerates.
 const LONG: f64 = 1e9;
@@ -156,11 +165,8 @@ fn carried(problem: &Problem, wrenches: &[Wrench]) -> f64 {
 impl Group {
     /// Takes the frames that all are guessed to have, and what the elements carry.
     fn guess(&mut self, assembly: &Assembly, ties: &Ties, poses: &mut [Pose], state: &State) {
+        self.hold(assembly, poses);
         for system in &mut self.rods {
-            for (node, support) in assembly.strands[system.rod].problem.supports() {
-                let pose = &mut poses[system.first + node];
-                *pose = meet(support, pose);
-            }
             let (nodes, elements) = (system.nodes(), system.elements());
             system.round_off = round_off(&assembly.strands[system.rod].problem, &state.poses[nodes]);
             system.record.wrenches.copy_from_slice(&state.wrenches[elements]);
@@ -210,7 +216,14 @@ impl Group {
     }
 
     /// Linearises the group about its frames, or where the slopes are kept looks at how far these are from what must hold; gives the residual.
-    fn linearise(&mut self, given: &Given, stage: &mut Stage, poses: &mut [Pose], slopes: Slopes) -> f64 {
+    fn linearise(
+        &mut self,
+        given: &Given,
+        stage: &mut Stage,
+        contacts: &mut Contacts,
+        poses: &mut [Pose],
+        slopes: Slopes,
+    ) -> f64 {
         let Given { assembly, level, .. } = *given;
         for system in &mut self.rods {
             system.take_motion(given, stage, slopes);
@@ -223,6 +236,8 @@ impl Group {
             return system.nodal.linearise_moving(problem, level, lends, &motion, &system.record).residual();
         }
         self.give_frames(poses);
+        let off = contacts.look(stage, poses);
+        self.tie_what_touches(assembly, given.ties, contacts);
         let Some(network) = &mut self.network else { return f64::NAN };
         let origin = poses[network.frames()[0]].position;
         let axes = network.axes(assembly, origin);
@@ -230,7 +245,7 @@ impl Group {
         let hangs = bodies.fold((0.0, 0.0), |(weight, mass), body| {
             (weight + body.load.linear.norm(), mass + body.inertia.mass)
         });
-        let mut slack = 0.0;
+        let mut slack = off / axes.length();
         for system in &mut self.rods {
             let problem = &assembly.strands[system.rod].problem;
             let motion = system.motion(assembly, stage);
@@ -250,7 +265,13 @@ impl Group {
         }
         larger(
             slack,
-            network.gather(assembly, given.ties, self.rods.iter().map(|system| &system.nodal), poses),
+            network.gather(
+                assembly,
+                given.ties,
+                self.rods.iter().map(|system| &system.nodal),
+                poses,
+                contacts.touches(),
+            ),
         )
     }
 
@@ -272,16 +293,49 @@ impl Group {
         nodal.solve(level, 0.0).is_some()
     }
 
-    /// Takes the step, but so little of it that no frame turns by more than a radian at once. Gives the step's size, the largest turn (rad) and shift (over half
-    /// the length).
-    fn step(&mut self, assembly: &Assembly, ties: &Ties, level: SimdLevel, poses: &mut [Pose]) -> f64 {
+    /// Takes the step, but so little of it that no frame turns by more than a radian at once, and no surface passes through another. Gives the step's size, the largest
+    /// turn (rad) and shift (over half the length).
+    fn step(
+        &mut self,
+        assembly: &Assembly,
+        ties: &Ties,
+        level: SimdLevel,
+        contacts: &mut Contacts,
+        poses: &mut [Pose],
+    ) -> f64 {
         let rods = self.rods.iter().map(|system| system.nodal.step_size()).fold(0.0, larger);
         let size = self.network.as_ref().map_or(rods, |network| larger(rods, network.step_size()));
-        let part = (1.0 / size).min(1.0);
+        let mut part = (1.0 / size).min(1.0);
+        if contacts.is_empty() {
+            self.take(assembly, ties, level, part, poses);
+            return size;
+        }
+        let before: Vec<Pose> = poses.to_vec();
+        let records: Vec<Record> = self.rods.iter().map(|system| system.record.clone()).collect();
+        for _ in 0..SHORTENED {
+            self.take(assembly, ties, level, part, poses);
+            let free = contacts.free_part(&before, poses).min(contacts.known_part(&before, poses));
+            if free == 1.0 {
+                break;
+            }
+            part *= WITHIN * free;
+            poses.copy_from_slice(&before);
+            for (system, record) in self.rods.iter_mut().zip(&records) {
+                system.record.clone_from(record);
+            }
+        }
+        if let Some(network) = &self.network {
+            contacts.take(network);
+        }
+        size
+    }
+
+    /// Takes a part of the step.
+    fn take(&mut self, assembly: &Assembly, ties: &Ties, level: SimdLevel, part: f64, poses: &mut [Pose]) {
         for RodSystem { rod, nodal, record, .. } in &mut self.rods {
             nodal.take(&assembly.strands[*rod].problem, level, part, record);
         }
-        let Some(network) = &self.network else { return size };
+        let Some(network) = &self.network else { return };
         self.give_frames(poses);
         for (at, body) in self.bodies.iter().enumerate() {
             let pose = &mut poses[assembly.first_body() + body];
@@ -289,7 +343,61 @@ impl Group {
         }
         self.meet(assembly, ties, poses);
         self.take_frames(poses);
-        size
+    }
+
+    /// Puts frames as far on the way to where they are guessed as surfaces allow, and lets those touch that may. Whether what is held may be where it is.
+    fn touch(
+        &mut self,
+        assembly: &Assembly,
+        ties: &Ties,
+        of_rate: f64,
+        contacts: &mut Contacts,
+        poses: &mut [Pose],
+        state: &State,
+    ) -> bool {
+        let Some(surfaces) = &assembly.surfaces else { return true };
+        contacts.find(assembly, surfaces, &state.poses, poses, of_rate, &state.contacts);
+        let free = contacts.free_part(&state.poses, poses);
+        if free < 1.0 {
+            let part = WITHIN * free;
+            for (pose, before) in poses.iter_mut().zip(&state.poses) {
+                *pose = before.towards(pose, part);
+            }
+            self.take_frames(poses);
+            self.hold(assembly, poses);
+            self.meet(assembly, ties, poses);
+            self.take_frames(poses);
+        }
+        let may = contacts.free_part(&state.poses, poses) == 1.0;
+        contacts.begin_at(poses);
+        may
+    }
+
+    /// Makes the linear system anew where other rods touch.
+    fn tie_what_touches(&mut self, assembly: &Assembly, ties: &Ties, contacts: &mut Contacts) {
+        if contacts.has_new_pairs() {
+            let rods: Vec<usize> = self.rods.iter().map(|system| system.rod).collect();
+            self.network = Some(Network::new(assembly, ties, &rods, &self.bodies, contacts.frames()));
+        }
+    }
+
+    /// Finds anew what may touch, where a frame has gone far since it was found.
+    fn find_anew(&self, assembly: &Assembly, of_rate: f64, contacts: &mut Contacts, poses: &[Pose]) {
+        let Some(surfaces) = &assembly.surfaces else { return };
+        if contacts.has_gone_far(poses) {
+            let known: Vec<Contact> = contacts.contacts(poses).collect();
+            contacts.find(assembly, surfaces, poses, poses, of_rate, &known);
+        }
+    }
+
+    /// Puts nodes where they are held.
+    fn hold(&self, assembly: &Assembly, poses: &mut [Pose]) {
+        for system in &self.rods {
+            for (node, support) in assembly.strands[system.rod].problem.supports() {
+                let pose = &mut poses[system.first + node];
+                *pose = meet(support, pose);
+            }
+        }
     }
 
     /// What is left over of a frame of the group and what hangs from it: force, and moment about a place.
@@ -356,7 +464,9 @@ impl Simulation {
                 tolerance: settings.tolerance,
                 level: work.level,
             };
-            group.linearise(&given, &mut work.stage, &mut work.poses, Slopes::Anew);
+            let contacts = &mut work.contacts;
+            group.touch(assembly, &work.ties, LONG, contacts, &mut work.poses, state);
+            group.linearise(&given, &mut work.stage, contacts, &mut work.poses, Slopes::Anew);
         }
     }
 
@@ -371,8 +481,9 @@ impl Simulation {
     fn solve_group(&mut self, group: usize) -> Result<Taken, StepFailure> {
         let Self { assembly, settings, state, work, .. } = self;
         let group = &mut work.groups[group];
-        let (ties, stage, level) = (&work.ties, &mut work.stage, work.level);
+        let (ties, stage, contacts, level) = (&work.ties, &mut work.stage, &mut work.contacts, work.level);
         group.guess(assembly, ties, &mut work.poses, state);
+        let may = group.touch(assembly, ties, stage.of_rate, contacts, &mut work.poses, state);
         let per_square = 1.0 / (stage.of_rate * stage.of_rate);
         let tolerance = settings.tolerance;
         let mut given = Given {
@@ -387,18 +498,28 @@ impl Simulation {
         work.history.clear();
         let (time, step) = (state.time, work.step);
         let singular = |history: &[f64]| StepFailure::Singular { time, step, history: history.to_vec() };
+        if !may {
+            return Err(StepFailure::Blocked { time, step });
+        }
         let mut iterations = 0;
         // What is left over of a step that keeps energy adds up over all steps: one iteration more takes it to round-off.
         let mut last = !stage.middle;
         let (mut slopes, mut before) = (Slopes::Anew, f64::INFINITY);
         let residual = loop {
-            let residual = group.linearise(&given, stage, &mut work.poses, slopes);
+            let mut residual = group.linearise(&given, stage, contacts, &mut work.poses, slopes);
+            let floor = group.round_off(assembly, |_| 1.0) * per_square;
+            // What sticks is let slip a little; where all else is solved, friction is told anew, so that it slips less.
+            let slips = contacts.slips() / assembly.size();
+            if slips > tolerance && residual <= (ANCHORED * slips).max(given.tolerance).max(floor) {
+                contacts.anchor();
+                residual = group.linearise(&given, stage, contacts, &mut work.poses, slopes);
+            }
+            residual = larger(residual, slips);
             work.history.push(residual);
             if !residual.is_finite() {
                 return Err(singular(&work.history));
             }
             let spent = iterations == settings.max_iterations;
-            let floor = group.round_off(assembly, |_| 1.0) * per_square;
             let solved = residual <= given.tolerance.max(floor);
             if spent && (settings.bounded && residual <= USABLE || solved)
                 || solved && last && !settings.bounded
@@ -411,7 +532,7 @@ impl Simulation {
             }
             if slopes == Slopes::Kept && residual > tolerance.max(floor).max(SERVES * before) {
                 slopes = Slopes::Anew;
-                group.linearise(&given, stage, &mut work.poses, slopes);
+                group.linearise(&given, stage, contacts, &mut work.poses, slopes);
             }
             if !group.solve(level, slopes) {
                 // Where nothing keeps what is at rest from turning, a long step has no solution better than one that is good enough.
@@ -420,7 +541,8 @@ impl Simulation {
                 }
                 return Err(singular(&work.history));
             }
-            let size = group.step(assembly, ties, level, &mut work.poses);
+            let size = group.step(assembly, ties, level, contacts, &mut work.poses);
+            group.find_anew(assembly, stage.of_rate, contacts, &work.poses);
             let near = size <= NEAR && group.keeps_slopes(stage);
             slopes = if near { Slopes::Kept } else { Slopes::Anew };
             (before, given.tolerance) = (residual, tolerance);

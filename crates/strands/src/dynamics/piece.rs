@@ -270,13 +270,15 @@ impl Simulation {
 
     /// Ends a step, or a piece of it, where its last stage is.
     pub(super) fn take(&mut self, lost: Power, seconds: f64) {
-        let Self { state, work: Work { groups, stage, poses, .. }, .. } = self;
+        let Self { state, work: Work { groups, stage, poses, contacts, .. }, .. } = self;
         state.poses.copy_from_slice(poses);
         for system in groups.iter().flat_map(|group| &group.rods) {
             state.wrenches[system.elements()].copy_from_slice(&system.record.wrenches);
         }
         state.velocities.copy_from_slice(&stage.velocities);
         state.momenta.copy_from_slice(&stage.momenta);
+        state.contacts.clear();
+        state.contacts.extend(contacts.contacts(poses));
         state.dissipated += lost.dissipated;
         state.worked += lost.worked;
         state.time += seconds;

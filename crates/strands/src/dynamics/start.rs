@@ -2,6 +2,7 @@
 
 use super::holds::put_as_planned;
 use super::{Integrator, Past, Power, Settings, Simulation, SimulationError, State};
+use crate::contact::Toucher;
 use crate::math::{Vec6, Wrench, larger};
 use crate::statics::{self, Method, Scheme, Workspace, meet};
 
@@ -30,8 +31,19 @@ const LONG: f64 = 1e6;
 impl Simulation {
     pub(super) fn start(&mut self, start: Start) -> Result<(), SimulationError> {
         self.put(start)?;
+        if let Some(between) = self.overlap() {
+            return Err(SimulationError::Overlap { between });
+        }
         self.weigh();
         Ok(())
+    }
+
+    /// Surfaces that pass into each other.
+    fn overlap(&mut self) -> Option<[Toucher; 2]> {
+        let Self { assembly, state, work, .. } = self;
+        let surfaces = assembly.surfaces.as_ref()?;
+        work.contacts.find(assembly, surfaces, &state.poses, &state.poses, 1.0, &[]);
+        work.contacts.overlap(&state.poses)
     }
 
     fn put(&mut self, start: Start) -> Result<(), SimulationError> {

@@ -2,6 +2,7 @@
 
 use super::energy::Power;
 use crate::assembly::Assembly;
+use crate::contact::Contact;
 use crate::math::{Pose, Vec6, Wrench};
 
 /// An assembly at some time: all that its future depends on beside what is done to it.
@@ -28,6 +29,8 @@ pub struct State {
     pub next_step: f64,
     /// What the integrator looks back on.
     pub past: Past,
+    /// What touches, where a stage was solved last.
+    pub contacts: Vec<Contact>,
 }
 
 /// What an integrator looks back on.
@@ -80,6 +83,7 @@ impl State {
             power: Power::default(),
             next_step,
             past: Past::None,
+            contacts: Vec::new(),
         }
     }
 
@@ -107,8 +111,9 @@ impl State {
             .flatten()
             .flat_map(|pose| pose.rotation.cols.into_iter().chain([pose.position]));
         let sixes = sixes.into_iter().flatten().flat_map(|six| six.to_array());
-        numbers.chain(columns.flat_map(|column| column.to_array())).chain(sixes).all(f64::is_finite)
-            && self.next_step > 0.0
+        let forces = self.contacts.iter().flat_map(|contact| contact.force.to_array());
+        let numbers = numbers.chain(columns.flat_map(|column| column.to_array()));
+        numbers.chain(sixes).chain(forces).all(f64::is_finite) && self.next_step > 0.0
     }
 
     /// Whether it is of so many frames and elements.

@@ -31,7 +31,7 @@ pub use batch::{Batch, BatchError};
 pub(crate) use boundary::meet;
 pub use continuation::{Event, EventKind, Path, PathEnd, PathError, PathPoint, PathSettings, follow_path};
 pub(crate) use march::Record;
-pub(crate) use nodal::{Coupled, Inertial, Motion, Network, Nodal, Slopes};
+pub(crate) use nodal::{Coupled, Inertial, Motion, Network, Nodal, Slopes, Touch, TouchEnd};
 pub use plan::{Plan, plan};
 pub use problem::{Problem, Stretch, Support};
 pub use refine::{RefineError, Refined, refine};

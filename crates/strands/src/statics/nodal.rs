@@ -31,7 +31,7 @@ pub(crate) use elimination::Inertia;
 use elimination::{Block, Eliminate, Square, Substitute, pair, parts, seen_from_near, times};
 use motion::Coupling;
 pub(crate) use motion::{Coupled, Inertial, Motion};
-pub(crate) use network::Network;
+pub(crate) use network::{Network, Touch, TouchEnd};
 pub(crate) use second_variation::SecondVariation;
 use second_variation::TURNING;
 pub(crate) use side_by_side::{SideBySide, of_lane};

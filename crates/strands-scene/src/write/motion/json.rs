@@ -6,6 +6,7 @@ use crate::write::Shape;
 use crate::write::json::ReactionAnswer;
 use indexmap::IndexMap;
 use serde::Serialize;
+use strands::contact::{Contact, Toucher};
 
 /// How a simulation went.
 #[derive(Clone, Debug, PartialEq)]
@@ -49,6 +50,8 @@ struct FrameAnswer<'a> {
     rods: IndexMap<&'a str, RodAnswer<'a>>,
     #[serde(skip_serializing_if = "IndexMap::is_empty")]
     bodies: IndexMap<&'a str, BodyAnswer>,
+    #[serde(skip_serializing_if = "Vec::is_empty")]
+    contacts: Vec<ContactAnswer<'a>>,
 }
 
 #[derive(Serialize)]
@@ -82,6 +85,23 @@ struct BodyAnswer {
     angular_velocity: [f64; 3],
 }
 
+#[derive(Serialize)]
+struct ContactAnswer<'a> {
+    between: [ToucherAnswer<'a>; 2],
+    point: [f64; 3],
+    normal: [f64; 3],
+    gap: f64,
+    force: [f64; 3],
+}
+
+#[derive(Serialize)]
+#[serde(untagged)]
+enum ToucherAnswer<'a> {
+    Element { rod: &'a str, element: usize },
+    Node { rod: &'a str, node: usize },
+    Obstacle { obstacle: usize },
+}
+
 /// A simulation as one JSON object: `scene`, `status` ("finished", "interrupted", or "failed" with the `reason`), `steps`, `real_time_factor` (simulated
 /// seconds a second) and `frames`, each with the time `t` (s), the `energy` of all together (J: `kinetic`, `elastic`, `gravity`, which is that of all dead
 /// loads, `dissipated` since the start, and, where it is known, the `work` of what has no potential), `newton_iterations` and the largest `residual`
@@ -89,7 +109,8 @@ struct BodyAnswer {
 ///
 /// A rod has at its nodes `s` (m), `position` (m), `orientation` (quaternion, w first), `velocity` (m/s, world axes) and `angular_velocity` (rad/s, the
 /// node's own axes); at its elements `strain` and `stress` as [`json`](fn@crate::write::json) has them; and, where they are known, its `reactions`. Where there
-/// are `bodies`, each has the four of a node.
+/// are `bodies`, each has the four of a node. Where surfaces touch there are `contacts`, each with what it is `between` (a `rod` and its `element` or `node`, or the number
+/// of an `obstacle`), its `point` (m), the `normal` from the second to the first, the `gap` (m) and the `force` of the second on the first (N).
 pub fn motion_json(model: &Model, frames: &[Frame], ran: &Ran) -> String {
     let (status, reason) = match &ran.end {
         End::Finished => ("finished", None),
@@ -120,6 +141,7 @@ fn answer<'a>(model: &'a Model, frame: &'a Frame) -> FrameAnswer<'a> {
             .map(|(shape, moved)| (shape.rod.name.as_str(), rod(&shape, moved)))
             .collect(),
         bodies: frame.bodies.iter().map(|moved| (moved.name.as_str(), body(moved))).collect(),
+        contacts: frame.contacts.iter().map(|of| contact(model, of)).collect(),
     }
 }
 
@@ -143,5 +165,22 @@ fn body(moved: &MovedBody) -> BodyAnswer {
         orientation: moved.pose.orientation().to_wxyz(),
         velocity: moved.velocity.linear.to_array(),
         angular_velocity: moved.velocity.angular.to_array(),
+    }
+}
+
+fn contact<'a>(model: &'a Model, contact: &Contact) -> ContactAnswer<'a> {
+    let name = |rod: usize| model.rods[rod].name.as_str();
+    let between = contact.between.map(|toucher| match toucher {
+        Toucher::Element { rod, element } => ToucherAnswer::Element { rod: name(rod), element },
+        Toucher::Node { rod, node } => ToucherAnswer::Node { rod: name(rod), node },
+        Toucher::Obstacle(obstacle) => ToucherAnswer::Obstacle { obstacle },
+    });
+    let Contact { point, normal, gap, force, .. } = *contact;
+    ContactAnswer {
+        between,
+        point: point.to_array(),
+        normal: normal.to_array(),
+        gap,
+        force: force.to_array(),
     }
 }

@@ -16,6 +16,7 @@ pub use usda::motion_usda;
 
 use super::Shape;
 use crate::model::Model;
+use strands::contact::Contact;
 use strands::math::{Pose, Strain, Stress, Vec6, Wrench};
 use strands::rod::Rod;
 use strands::statics::Reaction;
@@ -29,6 +30,8 @@ pub struct Frame {
     pub rods: Vec<MovedRod>,
     /// The rigid bodies, the same ones in every frame.
     pub bodies: Vec<MovedBody>,
+    /// What touches.
+    pub contacts: Vec<Contact>,
     /// Where the energy of all of them is.
     pub energy: FrameEnergy,
     /// Newton iterations since the frame before, of all together.

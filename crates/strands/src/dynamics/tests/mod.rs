@@ -1,4 +1,5 @@
 mod consistent;
+mod contact;
 mod held;
 mod network;
 

@@ -26,6 +26,11 @@ impl Axes {
         Self { origin, length: scale.length, force: scale.force, moment: scale.moment }
     }
 
+    /// What lengths are over, m.
+    pub fn length(&self) -> f64 {
+        self.length
+    }
+
     pub(super) fn at(&self, position: Vec3) -> Vec3 {
         (position - self.origin) * (1.0 / self.length)
     }

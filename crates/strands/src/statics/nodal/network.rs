@@ -11,7 +11,7 @@ use super::elimination::{
 };
 use super::{Axes, Inertial, Nodal, grip_acts};
 use crate::assembly::{Assembly, Body, Member, Ties};
-use crate::math::{Kernel, Pose, SimdLevel, Vec3, Vec6, Wrench, dispatch, larger};
+use crate::math::{Kernel, Mat3, Mat6, Pose, SimdLevel, Vec3, Vec6, Wrench, dispatch, larger};
 use crate::statics::Support;
 use crate::statics::boundary::{displacements, displacements_slope};
 use core::ops::Range;
@@ -37,6 +37,30 @@ struct FreeFrame {
     unsure: f64,
 }
 
+/// Where two surfaces touch: the ends of the segments that they are about, less those that stand still.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Touch {
+    pub ends: [Option<TouchEnd>; 4],
+    /// How the force on the first side is to change at once, N.
+    pub pull: Vec3,
+    /// How it resists a shift of the first side's place that touches against the second's, N/m.
+    pub stiffness: Mat3,
+    /// How the force of each end resists a shift of each other, N/m.
+    pub bends: [[Mat3; 4]; 4],
+}
+
+/// An end of a segment.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct TouchEnd {
+    /// The assembly's number of its frame.
+    pub frame: usize,
+    /// How much of the force it takes, less than nothing on the second side.
+    pub weight: f64,
+    /// Where it is, and where the surface that turns with its frame is touched.
+    pub place: Vec3,
+    pub touches: Vec3,
+}
+
 /// A part of a frame's variation: an unknown, and the motions (its columns) that it stands for.
 #[derive(Clone, Copy, Debug)]
 struct Term {
@@ -57,6 +81,8 @@ pub(crate) struct Network {
     /// The numbers that the assembly has for the network's frames, and what they are.
     frames: Vec<usize>,
     members: Vec<Member>,
+    /// The network's numbers for the assembly's frames.
+    number: Vec<usize>,
     /// The frames' terms: of a frame without joints one of its own.
     terms: Vec<Term>,
     terms_of: Vec<Range<usize>>,
@@ -152,8 +178,14 @@ impl Structure {
 }
 
 impl Network {
-    /// The system of some rods and bodies of an assembly, of all that they are tied to.
-    pub fn new(assembly: &Assembly, ties: &Ties, rods: &[usize], bodies: &[usize]) -> Self {
+    /// The system of some rods and bodies of an assembly, of all that they are tied to, in which frames may touch each other.
+    pub fn new(
+        assembly: &Assembly,
+        ties: &Ties,
+        rods: &[usize],
+        bodies: &[usize],
+        touching: impl Iterator<Item = [Option<usize>; 4]>,
+    ) -> Self {
         let mut network = Self::default();
         for &rod in rods {
             network.rods.push((rod, network.frames.len()));
@@ -203,7 +235,17 @@ impl Network {
                 join(own, &of[i + 1]);
             }
         }
+        for frames in touching {
+            for (k, a) in frames.iter().enumerate() {
+                for b in &frames[..k] {
+                    if let (Some(a), Some(b)) = (a, b) {
+                        join(&of[number[*a]], &of[number[*b]]);
+                    }
+                }
+            }
+        }
         let (structure, place) = Structure::new(unknowns, &edges);
+        network.number = number;
         for own in &of {
             let first = network.terms.len();
             let term = |at: &usize| Term { unknown: place[*at], motions: IDENTITY, whole: true };
@@ -259,6 +301,7 @@ impl Network {
         ties: &Ties,
         nodals: impl Iterator<Item = &'a Nodal> + Clone,
         poses: &[Pose],
+        touches: impl Iterator<Item = Touch>,
     ) -> f64 {
         for blocks in [&mut self.diagonal, &mut self.upper, &mut self.lower] {
             blocks.fill(NONE);
@@ -275,6 +318,9 @@ impl Network {
             self.add_block(frame, frame, &resists);
             self.add_right(frame, load);
             self.weigh_unknowns(frame, load, unsure);
+        }
+        for touch in touches {
+            self.add_touch(&touch);
         }
         self.hold(assembly, poses);
         let out = |(imbalance, scale): (&[f64; 6], &f64)| {
@@ -322,6 +368,36 @@ impl Network {
         for node in 0..=nodal.links.len() {
             self.weigh_unknowns(first + node, nodal.imbalance(node).wrench_from(nodal.places[node]), carried);
         }
+    }
+
+    /// Adds how a contact's force resists shifts of the frames that it is between, and is to change at once.
+    fn add_touch(&mut self, touch: &Touch) {
+        let axes = self.axes;
+        let per_shift = axes.length / axes.force;
+        for (k, on) in touch.ends.iter().enumerate() {
+            let Some(on) = on else { continue };
+            let (row, touched, place) = (self.number[on.frame], axes.at(on.touches), axes.at(on.place));
+            let pull = touch.pull * (on.weight / axes.force);
+            self.add_right(row, Wrench::new(touched.cross(pull), pull));
+            for (l, of) in touch.ends.iter().enumerate() {
+                let Some(of) = of else { continue };
+                let stiffness = touch.stiffness.scaled(on.weight * of.weight * per_shift);
+                let mut block = between_places(&touched, &stiffness, &axes.at(of.touches));
+                add(
+                    &mut block,
+                    &between_places(&place, &touch.bends[k][l].scaled(per_shift), &axes.at(of.place)),
+                );
+                self.add_block(row, self.number[of.frame], &block);
+            }
+        }
+    }
+
+    /// How the first side of a contact shifts against the second in the step, m.
+    pub fn shift_apart(&self, touch: &Touch) -> Vec3 {
+        touch.ends.iter().flatten().fold(Vec3::ZERO, |sum, end| {
+            let step = self.variation(self.number[end.frame], &self.axes.at(end.touches));
+            sum + step.linear * (end.weight * self.axes.length)
+        })
     }
 
     /// By what each frame is out of balance with all that hangs from it.
@@ -529,6 +605,13 @@ impl Network {
     pub fn frames(&self) -> &[usize] {
         &self.frames
     }
+}
+
+/// How the force at a place resists shifts of another one, as a block that resists variations about the axes' origin.
+fn between_places(on: &Vec3, stiffness: &Mat3, of: &Vec3) -> Square<f64> {
+    let (on, of) = (Mat3::hat(*on), Mat3::hat(*of).scaled(-1.0));
+    let by_turn = *stiffness * of;
+    Mat6 { blocks: [[on * by_turn, on * *stiffness], [by_turn, *stiffness]] }.to_rows()
 }
 
 /// What fixes a frame, if anything does.

@@ -1,0 +1,75 @@
+//! Contact: surfaces that touch, and what they exert on each other.
+//!
+//! A rod's surface is that of capsules, one about the chord of each element. What touches is found by the distance between two segments, of which either
+//! may be a point: two elements, a node and an element (beside each other elements touch all along, and nodes share the load), an element or node and an
+//! obstacle. Forces and gaps are solved for with the frames ([`law`]), and no iteration goes further than surfaces allow ([`distance`]), so nothing ever passes
+//! through anything.
+
+mod broad_phase;
+mod distance;
+mod law;
+mod obstacle;
+
+pub(crate) use broad_phase::{Aabb, overlapping};
+pub(crate) use distance::{Ends, Nearest, fastest, free_part};
+pub(crate) use law::{Law, Multipliers, Response};
+pub use obstacle::{Obstacle, Shape};
+
+use crate::math::Vec3;
+use core::fmt;
+
+/// How surfaces touch.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct Surfaces {
+    /// The coefficient of friction between any two of them, static and kinetic, where an obstacle has none of its own.
+    pub friction: f64,
+}
+
+/// What touches.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
+pub enum Toucher {
+    /// An element of a rod.
+    Element {
+        /// Which rod.
+        rod: usize,
+        /// Which of its elements.
+        element: usize,
+    },
+    /// A node of a rod, as a ball of its radius.
+    Node {
+        /// Which rod.
+        rod: usize,
+        /// Which of its nodes.
+        node: usize,
+    },
+    /// An obstacle.
+    Obstacle(usize),
+}
+
+impl fmt::Display for Toucher {
+    fn fmt(&self, f: &mut fmt::Formatter) -> fmt::Result {
+        match self {
+            Self::Element { rod, element } => write!(f, "element {element} of rod {rod}"),
+            Self::Node { rod, node } => write!(f, "node {node} of rod {rod}"),
+            Self::Obstacle(number) => write!(f, "obstacle {number}"),
+        }
+    }
+}
+
+/// Two surfaces that touch.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Contact {
+    /// What touches.
+    pub between: [Toucher; 2],
+    /// Where, in the middle between both surfaces, m.
+    pub point: Vec3,
+    /// The normal from the second to the first.
+    pub normal: Vec3,
+    /// How far the surfaces are apart, m.
+    pub gap: f64,
+    /// What the second exerts on the first, N.
+    pub force: Vec3,
+}
+
+#[cfg(test)]
+mod tests;
