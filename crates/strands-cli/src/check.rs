@@ -134,7 +134,9 @@ fn rows(rod: &RodCheck) -> Vec<(&'static str, String)> {
             rows.push(("error", "not estimated: a mesh twice as fine was not solved".into()))
         }
         Trial::Failed { .. } => rows.push(("error", "not estimated: a trial failed".into())),
-        Trial::Tied => rows.push(("error", "not estimated: joints tie the rod to others".into())),
+        Trial::Tied => {
+            rows.push(("error", "not estimated: joints tie the rod to others, or nothing holds it".into()))
+        }
     }
     rows
 }
@@ -161,7 +163,7 @@ fn rod_json(rod: &RodCheck) -> Value {
             (*estimated_error, strain.map(|[strain, _]| strain), None)
         }
         Trial::Failed { reason, .. } => (None, None, Some(reason.as_str())),
-        Trial::Tied => (None, None, Some("joints tie the rod to others")),
+        Trial::Tied => (None, None, Some("joints tie the rod to others, or nothing holds it")),
     };
     let known = |x: f64| x.is_finite().then_some(x);
     json!({

@@ -68,7 +68,6 @@ fn nearest<'a>(word: &str, known: &[&'a str]) -> Option<&'a str> {
 pub(crate) fn later(word: &str) -> Option<&'static str> {
     Some(match word {
         "eyelets" => "remove it: a support with `fix = [\"position\"]` holds a point of the rod",
-        "obstacles" => "remove it: nothing touches a rod so far",
         "initial" => "remove it: the search starts from the rest shape",
         "continuation" => "use \"auto\", \"sweep\", \"shooting\", \"multiple_shooting\" or \"equilibrium\"",
         _ => return None,

@@ -8,6 +8,7 @@ use std::time::Instant;
 
 use indicatif::ProgressBar;
 use strands::assembly::{Member, Strand};
+use strands::contact::Toucher;
 use strands::dynamics::{Integrator, Settings, Simulation, SimulationError, Start, StepFailure};
 use strands::statics::{Reaction, Support};
 use strands_scene::write::{End, Frame, FrameEnergy, MovedBody, MovedRod, Ran, motion_json};
@@ -193,6 +194,20 @@ fn with_names(model: &Model, error: &SimulationError) -> String {
         }
         _ => error.to_string(),
     };
+    if let SimulationError::Overlap { between } = error {
+        let name = |toucher: &Toucher| match toucher {
+            Toucher::Element { rod, .. } | Toucher::Node { rod, .. } => {
+                let numbered = format!("rod {rod}");
+                toucher.to_string().replace(&numbered, &format!("rod `{}`", model.rods[*rod].name))
+            }
+            Toucher::Obstacle(_) => toucher.to_string(),
+        };
+        return format!(
+            "where all starts {} passes into {}: put them apart",
+            name(&between[0]),
+            name(&between[1])
+        );
+    }
     match error.rod() {
         Some(rod) => text.replacen(&format!("rod {rod}"), &format!("rod `{}`", model.rods[rod].name), 1),
         None => text,

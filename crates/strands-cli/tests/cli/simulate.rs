@@ -267,6 +267,56 @@ fn a_rod_may_have_the_consistent_mass_matrix() {
 }
 
 #[test]
+fn strands_that_fall_on_a_floor_touch_it_and_each_other() {
+    const SCENE: &str = "../../../../examples/strands_on_a_floor.toml";
+    let run = strands(&["simulate", SCENE, "--seconds", "0.2", "--json"]);
+    assert_eq!((run.code, run.err.as_str()), (0, ""));
+    let answer: Value = serde_json::from_str(&run.out).unwrap();
+    let frames = answer["frames"].as_array().unwrap();
+    assert!(frames[0].get("contacts").is_none(), "it falls at first");
+    let contacts = frames.last().unwrap()["contacts"].as_array().unwrap();
+    let between = |first: &str, second: &str| {
+        let of = |contact: &&Value| {
+            contact["between"][0]["rod"] == first
+                && (contact["between"][1]["rod"] == second || contact["between"][1].get(second).is_some())
+        };
+        contacts.iter().filter(of).count()
+    };
+    assert!(between("first", "obstacle") > 10 && between("first", "second") > 0, "{contacts:?}");
+    let up: f64 = contacts
+        .iter()
+        .filter(|contact| contact["between"][1].get("obstacle").is_some())
+        .map(|contact| contact["force"][2].as_f64().unwrap())
+        .sum();
+    let weight = 2.0 * 1300.0 * std::f64::consts::PI * 0.5e-3_f64.powi(2) * 0.1 * 9.81;
+    assert!((up / weight - 1.0).abs() < 1e-3, "{up:e} of {weight:e}");
+    for contact in contacts {
+        assert!(contact["gap"].as_f64().unwrap() > 0.0, "{contact}");
+    }
+    let low = strands(&["simulate", SCENE, "--set", "rods.second.position=[0.05, -0.05, 0.01]"]);
+    let said =
+        "where all starts element 24 of rod `first` passes into element 24 of rod `second`: put them apart";
+    assert!(low.code == 1 && low.err.contains(said), "{} {}", low.code, low.err);
+    // Where they rest is found too, and they stay there.
+    let rests = strands(&[
+        "simulate",
+        SCENE,
+        "--set",
+        "dynamics.start=\"equilibrium\"",
+        "--seconds",
+        "0.01",
+        "--json",
+    ]);
+    let answer: Value = serde_json::from_str(&rests.out).unwrap();
+    let kinetic = answer["frames"].as_array().unwrap().last().unwrap()["energy"]["kinetic"].as_f64().unwrap();
+    assert!(rests.code == 0 && kinetic < 1e-12, "{kinetic:e}");
+    let solved = strands(&["solve", SCENE]);
+    assert!(solved.code != 0 && solved.err.contains("nothing holds them"), "{} {}", solved.code, solved.err);
+    let by = strands(&["simulate", SCENE, "--set", "dynamics.integrator=\"bdf2\""]);
+    assert!(by.code == 1 && by.err.contains("implicit_euler"), "{}", by.err);
+}
+
+#[test]
 fn the_method_of_order_4_is_warned_of_where_a_rod_does_not_stretch() {
     let sets = ["--set", "rods.beam.kinematics=\"kirchhoff\"", "--set", "dynamics.integrator=\"sdirk4\""];
     let run = strands(&[FALL.as_slice(), &sets, &["--seconds", "0.01"]].concat());

@@ -34,7 +34,8 @@ pub(super) fn supports(
         };
         all[at].add(context.document, &place, &support.without_place())?;
     }
-    if all.is_empty() && !is_tied {
+    // What falls may come to rest on something.
+    if all.is_empty() && !is_tied && context.file.contact.is_none() {
         let error = context.document.error(path, "nothing holds the rod");
         return Err(error.mend(format!(
             "clamp its start: `[[{path}.supports]]` with `at = \"start\"` and `fix = [\"position\", \"orientation\"]`"

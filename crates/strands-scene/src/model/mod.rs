@@ -93,7 +93,7 @@ pub struct MeshError {
 /// What cannot be solved rod by rod.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Error)]
 #[error(
-    "joints tie the rods of this scene, and each alone has no equilibrium; rods that are tied by joints come to rest with `strands simulate`, start = \"equilibrium\""
+    "joints tie rods of this scene, or nothing holds them, and each alone has no equilibrium; such rods come to rest with `strands simulate`, start = \"equilibrium\""
 )]
 pub struct Tied;
 
@@ -137,7 +137,7 @@ impl Model {
     /// Makes sure that each of its rods can be solved by itself.
     ///
     /// # Errors
-    /// Where joints tie rods to each other or to bodies: what is tied comes to rest together.
+    /// Where joints tie rods to each other or to bodies, or nothing holds one: what is tied or touches comes to rest together.
     pub fn each_alone(&self) -> Result<(), Tied> {
         if self.rods.iter().any(ModelRod::is_tied) { Err(Tied) } else { Ok(()) }
     }
@@ -149,9 +149,9 @@ impl Model {
 }
 
 impl ModelRod {
-    /// Whether joints tie it to something. Then it cannot be solved alone.
+    /// Whether joints tie it to something, or nothing holds it. Then it cannot be solved alone.
     pub fn is_tied(&self) -> bool {
-        !self.ties.is_empty()
+        !self.ties.is_empty() || self.supports.is_empty()
     }
 
     fn refine(&self, tolerance: f64, settings: &Settings) -> Result<Refined, RefineError> {
