@@ -272,8 +272,12 @@ fn mend(model: &Model, simulation: &Simulation, failure: &StepFailure) -> String
         Some(_) => ["a larger tolerance", "a smaller tolerance"],
         None => ["a longer time_step", "a shorter time_step"],
     };
-    if matches!(failure, StepFailure::TooShort { .. }) {
-        return format!("take {longer}");
+    match failure {
+        StepFailure::TooShort { .. } => return format!("take {longer}"),
+        StepFailure::Blocked { .. } => {
+            return "move them less far, or where nothing is in their way".to_owned();
+        }
+        StepFailure::NotConverged { .. } | StepFailure::Singular { .. } => {}
     }
     let bend = |rod: usize| {
         let pairs = state.poses[assembly.nodes(rod)].windows(2);

@@ -13,6 +13,13 @@ const AS_IT_IS: f64 = 1e-9;
 
 /// Looks at the keys for wind and velocities.
 pub(super) fn look(remarks: &mut Remarks<'_>, file: &SceneFile, model: &Model) {
+    if file.contact.is_some() {
+        remarks.note(
+            &KeyPath::of("contact"),
+            "a static solve does not know of `[contact]`: in it rods pass through all".to_owned(),
+            "`strands simulate` with `start = \"equilibrium\"` finds where they rest",
+        );
+    }
     if file.wind.is_some() && model.rods.iter().all(|rod| rod.drag == Drag::default()) {
         remarks.note(
             &KeyPath::of("wind"),

@@ -4,7 +4,7 @@ use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
 /// Contact: rods touch themselves, each other and the obstacles in a simulation. Without it all passes through all. A static solve knows no contact: it has no effect on
-/// it.
+/// it. What is not round touches as if it were, with the larger of its half extents for a radius.
 #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields, expecting = "a table")]
 pub struct ContactFile {

@@ -10,6 +10,9 @@ use strands::rod::Kinematics;
 /// What generalised-α leaves after a step of a motion that is much faster, where the scene does not say it.
 const SPECTRAL_RADIUS: f64 = 0.5;
 
+/// Iterations of a step in which surfaces touch.
+const CONTACT_ITERATIONS: usize = 60;
+
 /// Frames a second, where the scene does not say it.
 pub const OUTPUT_RATE: f64 = 60.0;
 
@@ -70,6 +73,8 @@ impl Model {
             Some(IntegratorName::Sdirk4) => Integrator::Sdirk4,
             Some(IntegratorName::TrBdf2) => Integrator::TrBdf2,
         };
+        // What touches may come to it by and by.
+        let most = if self.surfaces.is_some() { CONTACT_ITERATIONS } else { default.max_iterations };
         let longest =
             if chosen { 1.0 / written.output_rate.unwrap_or(OUTPUT_RATE) } else { default.time_step };
         dynamics::Settings {
@@ -81,7 +86,7 @@ impl Model {
                 .tolerance
                 .map_or(default.tolerance, |error| default.tolerance.min(1e-2 * error)),
             bounded: written.newton_iterations.is_some(),
-            max_iterations: written.newton_iterations.unwrap_or(default.max_iterations),
+            max_iterations: written.newton_iterations.unwrap_or(most),
             mass_damping: written.mass_damping.unwrap_or(default.mass_damping),
         }
     }

@@ -56,14 +56,15 @@ impl Nearest {
         [1.0 - s, s, t - 1.0, -t]
     }
 
-    /// How the distance bends as ends shift: for each two ends, along the normal from the second to the first.
-    pub fn curvature(&self, ends: &Ends, normal: Vec3, distance: f64) -> [[Mat3; 4]; 4] {
+    /// How the distance bends as ends shift: for each two ends, along the normal from the second to the first. As if segments were so far, m, from being beside each
+    /// other at least.
+    pub fn curvature(&self, ends: &Ends, normal: Vec3, distance: f64, beside: f64) -> [[Mat3; 4]; 4] {
         let weights = self.weights();
         let along = [ends[1] - ends[0], ends[2] - ends[3]];
         // With D half of the square of the distance, how its slopes along the segments change with each end.
         let by_place = [[-1.0, 1.0, 0.0, 0.0], [0.0, 0.0, 1.0, -1.0]];
         let mixed = |k: usize, of: usize| along[of] * weights[k] + self.apart * by_place[of][k];
-        let inverse = self.inverse(along);
+        let inverse = self.inverse(along, beside);
         let across = Mat3::IDENTITY - Mat3::outer(normal, normal);
         core::array::from_fn(|k| {
             core::array::from_fn(|l| {
@@ -79,7 +80,7 @@ impl Nearest {
     }
 
     /// The inverse of how D bends along the segments, where the places slide.
-    fn inverse(&self, along: [Vec3; 2]) -> [[f64; 2]; 2] {
+    fn inverse(&self, along: [Vec3; 2], beside: f64) -> [[f64; 2]; 2] {
         let square = |k: usize| along[k].dot(along[k]);
         match self.slides {
             [false, false] => [[0.0; 2]; 2],
@@ -87,7 +88,7 @@ impl Nearest {
             [false, true] => [[0.0; 2], [0.0, 1.0 / square(1)]],
             [true, true] => {
                 let (a, b, c) = (square(0), square(1), along[0].dot(along[1]));
-                let determinant = (a * b - c * c).max(PARALLEL * a * b);
+                let determinant = (a * b - c * c).max(beside * beside * a.max(b));
                 [[b / determinant, -c / determinant], [-c / determinant, a / determinant]]
             }
         }

@@ -9,8 +9,10 @@ use crate::math::{Mat3, Vec3};
 
 /// How much softer than `ρ`, over it, what is pressed is in one iteration; the force itself makes up for it in the next ones.
 const LENT: f64 = 1e-5;
-/// The stiffness `κ` against slip over `ρ`.
+/// The stiffness `κ` against slip over `ρ` at first; each time friction is told anew so many times more, up to some most.
 const STICKING: f64 = 30.0;
+const MORE: f64 = 10.0;
+const MOST: f64 = 3e5;
 
 /// The numbers of a contact's laws.
 #[derive(Clone, Copy, Debug)]
@@ -21,6 +23,8 @@ pub(crate) struct Law {
     pub stiffness: f64,
     /// The smoothing `ε`, N.
     pub smoothing: f64,
+    /// The stiffness `κ`, N/m.
+    sticking: f64,
 }
 
 /// What is known of a contact where it is looked at: what presses it, N, and from where its friction is told, N.
@@ -50,6 +54,15 @@ pub(crate) struct Response {
 }
 
 impl Law {
+    pub fn new(friction: f64, stiffness: f64, smoothing: f64) -> Self {
+        Self { friction, stiffness, smoothing, sticking: STICKING * stiffness }
+    }
+
+    /// Lets what sticks slip less.
+    pub fn sticks_more(&mut self) {
+        self.sticking = (MORE * self.sticking).min(MOST * self.stiffness);
+    }
+
     /// On the first side, with the normal from the second to the first, the gap, and the slip of the first side against the second; and how it responded before in
     /// the same search.
     pub fn respond(
@@ -60,7 +73,7 @@ impl Law {
         slip: Vec3,
         before: Option<&Response>,
     ) -> Response {
-        let Self { friction, stiffness: rho, smoothing } = *self;
+        let Self { friction, stiffness: rho, smoothing, sticking: kappa } = *self;
         let pressed = known.pressed;
         let z = pressed - rho * gap;
         let root = (z * z + 4.0 * smoothing * smoothing).sqrt();
@@ -83,7 +96,6 @@ impl Law {
         if friction == 0.0 {
             return response;
         }
-        let kappa = STICKING * rho;
         let slip = response.slip;
         let tried = across * known.anchor - slip * kappa;
         let (size, bound) = (tried.norm(), friction * pressed.max(0.0));

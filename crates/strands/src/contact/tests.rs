@@ -55,7 +55,7 @@ proptest! {
         let along = ends[1] - ends[0];
         let other = ends[3] - ends[2];
         prop_assume!(along.cross(other).norm() > 0.2 * along.norm() * other.norm());
-        let curvature = nearest.curvature(&ends, normal, distance_now);
+        let curvature = nearest.curvature(&ends, normal, distance_now, 0.0);
         let said: f64 = (0..16).map(|k| shifts[k / 4].dot(curvature[k / 4][k % 4] * shifts[k % 4])).sum();
         let [back, ahead] = [-h, h].map(|h| distance(&at(h)));
         let found = (back + ahead - 2.0 * distance_now) / (h * h);
@@ -96,7 +96,7 @@ fn parallel_segments_touch_in_the_middle_of_where_they_are_beside_each_other() {
 
 #[test]
 fn what_sticks_and_what_slides() {
-    let law = Law { friction: 0.5, stiffness: 10.0, smoothing: 1e-9 };
+    let law = Law::new(0.5, 10.0, 1e-9);
     let pressed = Multipliers { pressed: 2.0, anchor: Vec3::new(0.3, 0.0, 0.0) };
     let stuck = law.respond(&pressed, Vec3::Z, 0.0, Vec3::ZERO, None);
     assert!((stuck.force - Vec3::new(0.3, 0.0, 2.0)).norm() < 1e-12 && stuck.off < 1e-12, "{stuck:?}");

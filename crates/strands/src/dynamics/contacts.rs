@@ -6,21 +6,23 @@ use crate::contact::{
     Aabb, Contact, Ends, Law, Multipliers, Nearest, Response, Shape, Surfaces, Toucher, fastest, free_part,
     overlapping,
 };
-use crate::math::{Mat3, Pose, Vec3, Wrench};
+use crate::math::{Pose, Vec3, Wrench};
 use crate::statics::{Network, Touch, TouchEnd};
 
-/// The gap at which surfaces rest, over the radius of the thinner one: so no iteration that is not yet solved lets them through.
-const RESTS: f64 = 1e-3;
+/// The gap at which surfaces rest, over the radius of the thinner one: so no iteration that is not yet solved lets them through, and it is more than elements are [let](LET) nearer.
+const RESTS: f64 = 6e-3;
 /// The gap at which a contact bears as much as its stiffness at the resting gap, over that one.
-const SMOOTHING: f64 = 1e-2;
+const SMOOTHING: f64 = 1e-4;
+/// Surfaces touch where they press with more than so much of what the smoothing is, which they never do a radius apart.
+const FELT: f64 = 0.1;
 /// What may touch is found anew where a frame is further from where it was than so many radii.
 const REACH: f64 = 2.0;
 /// Elements of a rod may touch where more of it is between them than so many radii: it cannot bend back on itself in less.
 const BETWEEN: f64 = 3.5;
 /// Elements that are beside each other touch at their nodes: a pair of them is let nearer by as much as this part of the thickness where the ends of neither are further across the
 /// other than so much of it.
-const CROSSING: f64 = 0.2;
-const LET: f64 = 1e-2;
+const CROSSING: f64 = 0.1;
+const LET: f64 = 2.5e-3;
 /// Surfaces are near where their gap is less than so much of the radius of the thinner one.
 const NEAR: f64 = 0.1;
 /// A pair resists nothing where its stiffness is less than so much of what it has when it touches.
@@ -91,6 +93,7 @@ impl Contacts {
         known: &[Contact],
     ) {
         self.pairs.clear();
+        self.known.clear();
         let segments = segments(assembly);
         self.places.clear();
         self.places.extend(to.iter().map(|pose| pose.position));
@@ -116,14 +119,13 @@ impl Contacts {
         let friction = surfaces.friction;
         for segment in &segments {
             for (number, obstacle) in assembly.obstacles.iter().enumerate() {
-                let (still, radius, plane) = match obstacle.shape {
-                    Shape::Plane { point, normal } => ([point; 2], 0.0, Some(normal)),
-                    Shape::Capsule { ends, radius } => (ends, radius, None),
-                };
                 let of_node = matches!(segment.toucher, Toucher::Node { .. });
-                if of_node != plane.is_some() {
-                    continue;
-                }
+                // A plane meets nodes first, a ball elements; what is long may be beside an element too.
+                let (still, radius, plane) = match obstacle.shape {
+                    Shape::Plane { point, normal } if of_node => ([point; 2], 0.0, Some(normal)),
+                    Shape::Capsule { ends, radius } if !of_node || ends[0] != ends[1] => (ends, radius, None),
+                    Shape::Plane { .. } | Shape::Capsule { .. } => continue,
+                };
                 let pair = Pair {
                     between: [segment.toucher, Toucher::Obstacle(number)],
                     frames: [Some(segment.frames[0]), Some(segment.frames[1]), None, None],
@@ -215,6 +217,7 @@ impl Contacts {
             if let Some(looked) = pair.looked {
                 pair.known.anchor = looked.response.friction;
                 pair.opposite = None;
+                pair.law.sticks_more();
             }
         }
     }
@@ -233,11 +236,6 @@ impl Contacts {
     pub fn power(&self) -> f64 {
         let of = |looked: &Looked| -looked.response.force.dot(looked.velocity);
         self.pairs.iter().filter_map(|pair| pair.looked.as_ref()).map(of).sum()
-    }
-
-    /// Whether nothing may touch.
-    pub fn is_empty(&self) -> bool {
-        self.pairs.is_empty()
     }
 
     /// Whether pairs of rods touch for which the linear system is not made, which is then to be made for all that touch or nearly do.
@@ -268,14 +266,16 @@ impl Contacts {
             let Some(Looked { normal, response: Response { pull, stiffness, .. }, .. }) = pair.looked else {
                 continue;
             };
-            let resisted = pair.touch().map_or(Vec3::ZERO, |touch| stiffness * network.shift_apart(&touch));
+            let resisted =
+                pair.touch_ends().map_or(Vec3::ZERO, |ends| stiffness * network.shift_apart(&ends));
             pair.known.pressed = (pair.known.pressed + (pull - resisted).dot(normal)).max(0.0);
         }
     }
 
     /// What touches, with its forces.
     pub fn contacts(&self, poses: &[Pose]) -> impl Iterator<Item = Contact> {
-        self.pairs.iter().filter(|pair| pair.known.pressed > pair.law.smoothing).map(|pair| {
+        let touches = |pair: &&Pair| pair.known.pressed > FELT * pair.law.smoothing;
+        self.pairs.iter().filter(touches).map(|pair| {
             let ends = pair.ends(poses);
             let (_, normal, distance, places) = pair.geometry(&ends);
             let gap = distance - pair.radii[0] - pair.radii[1];
@@ -365,14 +365,11 @@ impl Pair {
         response.off
     }
 
-    /// How far a crossing of two elements is from being none: by how much their ends are beside each other; of all else more than enough.
+    /// How far two segments are from being beside each other: how far the ends of the shorter are across the longer. More than enough where one is a point.
     fn crossing(&self, ends: &Ends) -> f64 {
-        let crossing = matches!(self.between, [Toucher::Element { .. }, Toucher::Element { .. }]);
-        if !crossing {
-            return f64::INFINITY;
-        }
         let (a, b) = (ends[1] - ends[0], ends[3] - ends[2]);
-        a.cross(b).norm() / a.norm().max(b.norm())
+        let longer = a.norm().max(b.norm());
+        if a == Vec3::ZERO || b == Vec3::ZERO { f64::INFINITY } else { a.cross(b).norm() / longer }
     }
 
     /// Whether it is so near that it may soon touch.
@@ -393,26 +390,31 @@ impl Pair {
         self.looked.is_some_and(|looked| looked.response.stiffness.max_abs() >= NONE * self.law.stiffness)
     }
 
-    fn touch(&self) -> Option<Touch> {
-        let Looked { nearest, ends, normal, distance, arms, response, .. } =
-            self.looked.filter(|_| self.resists())?;
-        let weights = self.weights(&nearest);
-        let bends = if self.plane.is_some() {
-            [[Mat3::ZERO; 4]; 4]
-        } else {
-            let pressed = self.known.pressed;
-            nearest.curvature(&ends, normal, distance).map(|row| row.map(|block| block.scaled(-pressed)))
-        };
-        let ends = core::array::from_fn(|k| {
+    /// The ends that its force acts on, where it resists anything.
+    fn touch_ends(&self) -> Option<[Option<TouchEnd>; 4]> {
+        let Looked { nearest, ends, arms, .. } = self.looked.as_ref().filter(|_| self.resists())?;
+        let weights = self.weights(nearest);
+        Some(core::array::from_fn(|k| {
             let frame = self.frames[k]?;
             Some(TouchEnd { frame, weight: weights[k], place: ends[k], touches: ends[k] + arms[k / 2] })
+        }))
+    }
+
+    fn touch(&self) -> Option<Touch> {
+        let ends = self.touch_ends()?;
+        let Looked { nearest, ends: places, normal, distance, response, .. } = self.looked.as_ref()?;
+        let bends = self.plane.is_none().then(|| {
+            let beside = 0.5 * CROSSING * (self.radii[0] + self.radii[1]);
+            let mut curvature = nearest.curvature(places, *normal, *distance, beside);
+            curvature.iter_mut().flatten().for_each(|block| *block = block.scaled(-self.known.pressed));
+            curvature
         });
         Some(Touch { ends, pull: response.pull, stiffness: response.stiffness, bends })
     }
 }
 
 fn law(friction: f64, stiffness: f64, radius: f64) -> Law {
-    Law { friction, stiffness, smoothing: SMOOTHING * stiffness * RESTS * radius }
+    Law::new(friction, stiffness, SMOOTHING * stiffness * RESTS * radius)
 }
 
 /// How stiff a long rod is against a push across it in a stage in which a rate counts so much (s): that of a beam against one of that frequency.

@@ -116,6 +116,18 @@ pub enum SimulationError {
     /// Methods that look back, or ahead, on steps without impacts do not know of them.
     #[error("what touches moves by \"implicit_euler\" only, not by \"{0}\"")]
     NoContactBy(&'static str),
+    /// No error is known of steps with impacts.
+    #[error("steps of what touches are all alike: give `time_step`, and leave out `tolerance`")]
+    NoErrorOfContact,
+    /// What is left over of contact forces would let surfaces through.
+    #[error("steps of bounded cost are not for what touches: leave out newton_iterations")]
+    UnboundedContact,
+    /// A state has a contact of what there is not.
+    #[error("the state has a contact between {} and {}, which there is not: give a state of the same rods and obstacles", between[0], between[1])]
+    UnknownContact {
+        /// Of what.
+        between: [Toucher; 2],
+    },
     /// Bodies have no surfaces yet, and what joints tie overlaps.
     #[error("contact is for rods and obstacles, without bodies and joints: leave out the contact, or these")]
     NoContactOfBodies,

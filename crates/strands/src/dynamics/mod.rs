@@ -29,6 +29,7 @@ pub use start::Start;
 pub use state::{Means, Past, State};
 
 use crate::assembly::{Assembly, Body, Cluster, JointKind, Member, Strand, Ties};
+use crate::contact::Toucher;
 use crate::math::{Pose, SimdLevel, Vec3, Vec6, Wrench};
 use crate::rod::{NodeInertia, Order};
 use crate::statics::{Network, Problem, Support};
@@ -252,6 +253,16 @@ impl Simulation {
         if !state.fits(needed) {
             return Err(SimulationError::Unfit { got, needed });
         }
+        let known = |toucher: &Toucher| match *toucher {
+            Toucher::Element { rod, element } => {
+                self.assembly.strands.get(rod).is_some_and(|strand| element < strand.problem.rod.elements())
+            }
+            Toucher::Node { rod, node } => self.assembly.frame(Member::Node { rod, node }).is_some(),
+            Toucher::Obstacle(number) => number < self.assembly.obstacles.len(),
+        };
+        if let Some(contact) = state.contacts.iter().find(|contact| !contact.between.iter().all(known)) {
+            return Err(SimulationError::UnknownContact { between: contact.between });
+        }
         if !state.can_begin() {
             return Err(SimulationError::NotFinite);
         }
@@ -319,18 +330,24 @@ fn check(assembly: &Assembly, settings: &Settings) -> Result<(), SimulationError
     setting("the tolerance", tolerance, positive(tolerance), "greater than 0")?;
     let not_negative = |value: f64| value >= 0.0 && value.is_finite();
     setting("the damping of mass", mass_damping, not_negative(mass_damping), "0 or more")?;
-    if let Some(error) = settings.local_error {
-        setting("the local error", error, positive(error), "greater than 0")?;
-        if integrator.embedding().is_none() {
-            return Err(SimulationError::NoErrorOf(integrator.name()));
-        }
-    }
     if assembly.surfaces.is_some() {
         if integrator != Integrator::ImplicitEuler {
             return Err(SimulationError::NoContactBy(integrator.name()));
         }
+        if settings.local_error.is_some() {
+            return Err(SimulationError::NoErrorOfContact);
+        }
+        if settings.bounded {
+            return Err(SimulationError::UnboundedContact);
+        }
         if !(assembly.bodies.is_empty() && assembly.joints.is_empty()) {
             return Err(SimulationError::NoContactOfBodies);
+        }
+    }
+    if let Some(error) = settings.local_error {
+        setting("the local error", error, positive(error), "greater than 0")?;
+        if integrator.embedding().is_none() {
+            return Err(SimulationError::NoErrorOf(integrator.name()));
         }
     }
     let hinges = assembly.joints.iter().any(|joint| joint.kind == JointKind::Hinge);

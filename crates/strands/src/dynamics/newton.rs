@@ -306,7 +306,7 @@ impl Group {
         let rods = self.rods.iter().map(|system| system.nodal.step_size()).fold(0.0, larger);
         let size = self.network.as_ref().map_or(rods, |network| larger(rods, network.step_size()));
         let mut part = (1.0 / size).min(1.0);
-        if contacts.is_empty() {
+        if assembly.surfaces.is_none() {
             self.take(assembly, ties, level, part, poses);
             return size;
         }
@@ -367,6 +367,8 @@ impl Group {
             self.hold(assembly, poses);
             self.meet(assembly, ties, poses);
             self.take_frames(poses);
+            // What is held goes another way then.
+            contacts.find(assembly, surfaces, &state.poses, poses, of_rate, &state.contacts);
         }
         let may = contacts.free_part(&state.poses, poses) == 1.0;
         contacts.begin_at(poses);

@@ -111,7 +111,10 @@ impl State {
             .flatten()
             .flat_map(|pose| pose.rotation.cols.into_iter().chain([pose.position]));
         let sixes = sixes.into_iter().flatten().flat_map(|six| six.to_array());
-        let forces = self.contacts.iter().flat_map(|contact| contact.force.to_array());
+        let contacts =
+            self.contacts.iter().flat_map(|contact| [contact.point, contact.normal, contact.force]);
+        let forces =
+            contacts.flat_map(|part| part.to_array()).chain(self.contacts.iter().map(|contact| contact.gap));
         let numbers = numbers.chain(columns.flat_map(|column| column.to_array()));
         numbers.chain(sixes).chain(forces).all(f64::is_finite) && self.next_step > 0.0
     }

@@ -18,7 +18,7 @@ const EULER: Settings = Settings {
     time_step: 1e-3,
     local_error: None,
     tolerance: 1e-7,
-    max_iterations: 40,
+    max_iterations: 60,
     bounded: false,
     mass_damping: 0.0,
 };
@@ -61,7 +61,7 @@ fn a_rod_on_an_incline_sticks_or_slides_and_rolls() {
                 if sin <= 3.0 * friction * cos { [rolls, rolls] } else { [slides, 2.0 * friction * G * cos] };
             for (down, [expected, turned]) in [(Vec3::Z, along), (Vec3::Y, across)] {
                 let gravity = Vec3::X * (-G * cos) + down * (G * sin);
-                let base = Pose { position: Vec3::new(1.001 * RADIUS, 0.0, 0.0), ..Pose::IDENTITY };
+                let base = Pose { position: Vec3::new(1.006 * RADIUS, 0.0, 0.0), ..Pose::IDENTITY };
                 let assembly = on_floor(free(steel(), base, gravity), friction);
                 let mut simulation = Simulation::new(assembly, EULER, Start::Rest).unwrap();
                 for _ in 0..20 {
@@ -75,7 +75,6 @@ fn a_rod_on_an_incline_sticks_or_slides_and_rolls() {
                     near(acceleration, expected) && near(spin, turned),
                     "{friction}, {degrees}°: {acceleration} for {expected}, {spin} for {turned}"
                 );
-                // What sticks does not creep.
                 if expected == 0.0 {
                     // What sticks does not creep.
                     let lay = state.poses[5].position;
@@ -255,6 +254,7 @@ fn pulled(time_step: f64) -> f64 {
 #[test]
 fn a_knot_is_pulled_tight_with_the_same_force_in_steps_of_any_length() {
     let [half, one, two] = [5e-4, 1e-3, 2e-3].map(pulled);
+    println!("{half} N, {one} N and {two} N");
     assert!(one > 0.02, "{one}");
     for other in [half, two] {
         assert!((other / one - 1.0).abs() < 0.05, "{half} {one} {two}");
@@ -273,4 +273,126 @@ fn what_cannot_touch_is_refused() {
     let by = Settings { integrator: Integrator::Bdf2, ..EULER };
     let refused = Simulation::new(within, by, Start::Rest).unwrap_err();
     assert!(matches!(refused, SimulationError::NoContactBy("bdf2")), "{refused}");
+}
+
+#[test]
+fn nothing_passes_through_anything_however_long_the_steps() {
+    // A thin strand falls onto one that is held, by many times their thickness in a step, and nothing is near at first.
+    let nylon = Material::from_poisson(750e6, 0.4, 1300.0).unwrap();
+    let thin = || rod(0.05, 1e-4, nylon, Kinematics::Cosserat, 20);
+    let held = {
+        let problem =
+            free(thin(), Pose { position: Vec3::new(0.0, 0.0, -0.025), ..Pose::IDENTITY }, Vec3::ZERO);
+        let [a, b] = [0, 20].map(|node| problem.rod.rest_poses()[node]);
+        Problem { start: Support::clamped(a), end: Support::clamped(b), ..problem }
+    };
+    let across = Mat3::from_cols(Vec3::X, -Vec3::Z, Vec3::Y);
+    for (height, gravity) in [(6.5e-4, 9.81), (2e-3, 9.81), (5e-3, 98100.0)] {
+        let base = Pose { rotation: across, position: Vec3::new(height, -0.024, 0.001) };
+        let assembly = Assembly {
+            strands: vec![held.clone().into(), free(thin(), base, Vec3::X * -gravity).into()],
+            surfaces: Some(Surfaces { friction: 0.3 }),
+            ..Assembly::default()
+        };
+        let settings = Settings { time_step: 0.01, ..EULER };
+        let mut simulation = Simulation::new(assembly, settings, Start::Rest).unwrap();
+        for step in 0..8 {
+            if let Err(failure) = simulation.step() {
+                // It may not be solved, but is never solved with what has passed through.
+                println!("{height} m, step {step}: {failure}");
+                break;
+            }
+            let poses = &simulation.state().poses;
+            let gap = |k: usize| poses[21 + k].position.x - poses[10].position.x;
+            let above = (0..=20).map(gap).fold(f64::NEG_INFINITY, f64::max);
+            assert!(above > 0.0, "{height} m, step {step}: {above:e}");
+        }
+    }
+}
+
+#[test]
+fn rods_that_cross_at_any_angle_rest_on_each_other() {
+    // Elements as long as the rods are thick cross at their middles.
+    for degrees in [0.0, 0.5, 1.0, 2.0, 4.0, 6.0, 9.0, 12.0, 20.0, 90.0_f64] {
+        let steel = || {
+            rod(0.044, 1e-3, Material::from_poisson(200e9, 0.3, 7850.0).unwrap(), Kinematics::Cosserat, 22)
+        };
+        let held = {
+            let problem =
+                free(steel(), Pose { position: Vec3::new(0.0, 0.0, -0.023), ..Pose::IDENTITY }, Vec3::ZERO);
+            let [a, b] = [0, 22].map(|node| problem.rod.rest_poses()[node]);
+            Problem { start: Support::clamped(a), end: Support::clamped(b), ..problem }
+        };
+        let turn = Quat::from_rotation_vector(Vec3::X * degrees.to_radians()).to_matrix();
+        let base = Pose { rotation: turn, position: Vec3::new(2.1e-3, 0.0, 0.0) - turn.cols[2] * 0.023 };
+        let falls = free(steel(), base, Vec3::X * -9.81);
+        // It may only go up and down, and does not fall off.
+        let [a, b] = [0, 22].map(|node| falls.rod.rest_poses()[node]);
+        let guide = |pose| Support::clamped(pose).sliding_along(Vec3::X);
+        let falls = Problem { start: guide(a), end: guide(b), ..falls };
+        let assembly = Assembly {
+            strands: vec![held.into(), falls.into()],
+            surfaces: Some(Surfaces { friction: 0.3 }),
+            ..Assembly::default()
+        };
+        let mut simulation = Simulation::new(assembly, EULER, Start::Rest).unwrap();
+        for step in 0..60 {
+            simulation.step().unwrap_or_else(|failure| panic!("{degrees}°, step {step}: {failure}"));
+        }
+        let state = simulation.state();
+        let up: f64 = state.contacts.iter().map(|contact| contact.force.x.abs()).sum();
+        let weight = simulation.assembly().strands[1].problem.rod.mass() * 9.81;
+        assert!((up / weight - 1.0).abs() < 0.01, "{degrees}°: {up:e} of {weight:e}");
+        assert!(state.contacts.iter().all(|contact| contact.gap > 0.0), "{degrees}°");
+    }
+}
+
+#[test]
+fn a_rod_rests_along_a_long_obstacle_and_in_a_valley_of_two() {
+    for degrees in [0.0, 1e-4, 0.01, 0.1, 1.0_f64] {
+        let turn = Quat::from_rotation_vector(Vec3::Y * degrees.to_radians()).to_matrix();
+        let base = Pose { rotation: turn, position: Vec3::new(4e-3, 0.0, 0.0) };
+        let side = |y: f64| Obstacle {
+            shape: Shape::Capsule { ends: [Vec3::new(0.0, y, -0.05), Vec3::new(0.0, y, 0.15)], radius: 2e-3 },
+            friction: None,
+        };
+        let assembly = Assembly {
+            surfaces: Some(Surfaces { friction: 0.3 }),
+            obstacles: vec![side(-2e-3), side(2e-3)],
+            ..free(steel(), base, Vec3::X * -9.81).into()
+        };
+        let mut simulation = Simulation::new(assembly, EULER, Start::Rest).unwrap();
+        for step in 0..100 {
+            simulation.step().unwrap_or_else(|failure| panic!("{degrees}°, step {step}: {failure}"));
+        }
+        let lies = simulation.state().poses[5].position;
+        let height = (3e-3_f64.powi(2) - 2e-3_f64.powi(2)).sqrt();
+        assert!(
+            (lies.x - height).abs() < 0.02 * RADIUS && lies.y.abs() < 0.02 * RADIUS,
+            "{degrees}°: {lies:?}"
+        );
+    }
+}
+
+#[test]
+fn rods_piled_side_by_side_come_to_rest() {
+    for friction in [0.0, 0.3] {
+        let lies = |x: f64, y: f64| {
+            let position = Vec3::new(x * RADIUS, y * RADIUS, 0.0);
+            free(steel(), Pose { position, ..Pose::IDENTITY }, Vec3::X * -9.81).into()
+        };
+        let assembly = Assembly {
+            strands: vec![lies(1.02, -1.02), lies(1.02, 1.02), lies(2.85, 0.0)],
+            surfaces: Some(Surfaces { friction }),
+            obstacles: vec![FLOOR],
+            ..Assembly::default()
+        };
+        let mut simulation = Simulation::new(assembly, EULER, Start::Rest).unwrap();
+        for step in 0..60 {
+            simulation.step().unwrap_or_else(|failure| panic!("{friction}, step {step}: {failure}"));
+        }
+        let top = simulation.state().poses[22 + 5].position.x;
+        // Without friction the two below are pushed apart.
+        assert!(if friction > 0.0 { top > 2.6 * RADIUS } else { top < 2.6 * RADIUS }, "{friction}: {top:e}");
+    }
 }

@@ -11,7 +11,7 @@ use super::elimination::{
 };
 use super::{Axes, Inertial, Nodal, grip_acts};
 use crate::assembly::{Assembly, Body, Member, Ties};
-use crate::math::{Kernel, Mat3, Mat6, Pose, SimdLevel, Vec3, Vec6, Wrench, dispatch, larger};
+use crate::math::{Kernel, Mat3, Pose, SimdLevel, Vec3, Vec6, Wrench, dispatch, larger};
 use crate::statics::Support;
 use crate::statics::boundary::{displacements, displacements_slope};
 use core::ops::Range;
@@ -45,8 +45,8 @@ pub(crate) struct Touch {
     pub pull: Vec3,
     /// How it resists a shift of the first side's place that touches against the second's, N/m.
     pub stiffness: Mat3,
-    /// How the force of each end resists a shift of each other, N/m.
-    pub bends: [[Mat3; 4]; 4],
+    /// How the force of each end resists a shift of each other, N/m, where the normal turns with them.
+    pub bends: Option<[[Mat3; 4]; 4]>,
 }
 
 /// An end of a segment.
@@ -382,19 +382,19 @@ impl Network {
             for (l, of) in touch.ends.iter().enumerate() {
                 let Some(of) = of else { continue };
                 let stiffness = touch.stiffness.scaled(on.weight * of.weight * per_shift);
-                let mut block = between_places(&touched, &stiffness, &axes.at(of.touches));
-                add(
-                    &mut block,
-                    &between_places(&place, &touch.bends[k][l].scaled(per_shift), &axes.at(of.place)),
-                );
+                let mut block = NONE;
+                add_between_places(&mut block, touched, &stiffness, axes.at(of.touches));
+                if let Some(bends) = &touch.bends {
+                    add_between_places(&mut block, place, &bends[k][l].scaled(per_shift), axes.at(of.place));
+                }
                 self.add_block(row, self.number[of.frame], &block);
             }
         }
     }
 
     /// How the first side of a contact shifts against the second in the step, m.
-    pub fn shift_apart(&self, touch: &Touch) -> Vec3 {
-        touch.ends.iter().flatten().fold(Vec3::ZERO, |sum, end| {
+    pub fn shift_apart(&self, ends: &[Option<TouchEnd>; 4]) -> Vec3 {
+        ends.iter().flatten().fold(Vec3::ZERO, |sum, end| {
             let step = self.variation(self.number[end.frame], &self.axes.at(end.touches));
             sum + step.linear * (end.weight * self.axes.length)
         })
@@ -453,10 +453,15 @@ impl Network {
         let (rows, columns) = (self.terms_of[row].clone(), self.terms_of[column].clone());
         for r in rows {
             for c in columns.clone() {
-                let (row, column) = (self.terms[r], self.terms[c]);
+                let (row, column) = (&self.terms[r], &self.terms[c]);
+                let (at, to) = (row.unknown, column.unknown);
+                if row.whole && column.whole {
+                    add(self.block_mut(at, to), block);
+                    continue;
+                }
                 let right = if column.whole { *block } else { product(block, &column.motions) };
                 let whole = if row.whole { right } else { product(&transposed(&row.motions), &right) };
-                add(self.block_mut(row.unknown, column.unknown), &whole);
+                add(self.block_mut(at, to), &whole);
             }
         }
     }
@@ -471,10 +476,9 @@ impl Network {
 
     fn add_right(&mut self, frame: usize, acts: Wrench) {
         let acts = parts(acts);
-        for term in self.terms_of[frame].clone() {
-            let Term { unknown, motions, .. } = self.terms[term];
-            for (acts, motions) in acts.iter().zip(&motions) {
-                for (right, motion) in self.right[unknown].iter_mut().zip(motions) {
+        for Term { unknown, motions, .. } in &self.terms[self.terms_of[frame].clone()] {
+            for (acts, motions) in acts.iter().zip(motions) {
+                for (right, motion) in self.right[*unknown].iter_mut().zip(motions) {
                     *right += motion * acts;
                 }
             }
@@ -607,11 +611,18 @@ impl Network {
     }
 }
 
-/// How the force at a place resists shifts of another one, as a block that resists variations about the axes' origin.
-fn between_places(on: &Vec3, stiffness: &Mat3, of: &Vec3) -> Square<f64> {
-    let (on, of) = (Mat3::hat(*on), Mat3::hat(*of).scaled(-1.0));
-    let by_turn = *stiffness * of;
-    Mat6 { blocks: [[on * by_turn, on * *stiffness], [by_turn, *stiffness]] }.to_rows()
+/// Adds how the force at a place resists shifts of another one, as it resists variations about the axes' origin.
+#[inline]
+fn add_between_places(block: &mut Square<f64>, on: Vec3, stiffness: &Mat3, of: Vec3) {
+    // By a turn the other place shifts by `η × of`.
+    let by_turn = *stiffness * Mat3::hat(of);
+    let columns = by_turn.cols.map(|column| column * -1.0).into_iter().chain(stiffness.cols);
+    for (c, force) in columns.enumerate() {
+        let moment = on.cross(force);
+        for (row, x) in block.iter_mut().zip([moment.x, moment.y, moment.z, force.x, force.y, force.z]) {
+            row[c] += x;
+        }
+    }
 }
 
 /// What fixes a frame, if anything does.
