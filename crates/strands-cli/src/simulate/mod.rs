@@ -8,7 +8,6 @@ use std::time::Instant;
 
 use indicatif::ProgressBar;
 use strands::assembly::{Member, Strand};
-use strands::contact::Toucher;
 use strands::dynamics::{Integrator, Settings, Simulation, SimulationError, Start, StepFailure};
 use strands::statics::{Reaction, Support};
 use strands_scene::write::{End, Frame, FrameEnergy, MovedBody, MovedRod, Ran, motion_json};
@@ -194,24 +193,14 @@ fn with_names(model: &Model, error: &SimulationError) -> String {
         }
         _ => error.to_string(),
     };
-    if let SimulationError::Overlap { between } = error {
-        let name = |toucher: &Toucher| match toucher {
-            Toucher::Element { rod, .. } | Toucher::Node { rod, .. } => {
-                let numbered = format!("rod {rod}");
-                toucher.to_string().replace(&numbered, &format!("rod `{}`", model.rods[*rod].name))
-            }
-            Toucher::Obstacle(_) => toucher.to_string(),
-        };
-        return format!(
-            "where all starts {} passes into {}: put them apart",
-            name(&between[0]),
-            name(&between[1])
-        );
-    }
-    match error.rod() {
-        Some(rod) => text.replacen(&format!("rod {rod}"), &format!("rod `{}`", model.rods[rod].name), 1),
+    // The greater number first: it may begin as the lesser one. A state may name rods that the scene has not.
+    let mut rods = error.rods();
+    rods.sort_unstable_by(|a, b| b.cmp(a));
+    rods.dedup();
+    rods.into_iter().fold(text, |text, rod| match model.rods.get(rod) {
+        Some(named) => text.replace(&format!("rod {rod}"), &format!("rod `{}`", named.name)),
         None => text,
-    }
+    })
 }
 
 /// Steps until it is done, a step cannot be made, or someone ends it.

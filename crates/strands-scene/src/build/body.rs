@@ -1,11 +1,11 @@
 //! Rigid bodies.
 
+use super::sizes::Sizes;
 use super::{Context, hold};
 use crate::document::{Document, KeyPath};
 use crate::error::SceneError;
 use crate::file::{BodyFile, BodyShapeFile, BodyShapeName};
 use crate::model::{BodyShape, ModelBody};
-use crate::words;
 use strands::assembly::Body;
 use strands::math::{Mat3, Pose, Vec3};
 use strands::rod::NodeInertia;
@@ -134,28 +134,21 @@ fn shape(document: &Document, path: &KeyPath, written: &BodyShapeFile) -> Result
         ("length", written.length.is_some()),
         ("size", written.size.is_some()),
     ];
-    let (shape, keys): (_, &[&str]) = match written.shape {
+    let of: (_, &[&str]) = match written.shape {
         BodyShapeName::Ball => ("a ball", &["radius"]),
         BodyShapeName::Capsule => ("a capsule", &["radius", "length"]),
         BodyShapeName::Cylinder => ("a cylinder", &["radius", "length"]),
         BodyShapeName::Block => ("a block", &["size"]),
     };
-    let needs = format!("{shape} is given by {}", words::quoted(keys));
-    if let Some((key, _)) = sizes.into_iter().find(|(key, given)| *given && !keys.contains(key)) {
-        let error = document.error(&path.key(key), format!("`{key}` does not belong to {shape}"));
-        return Err(error.mend(needs));
-    }
-    let missing =
-        |key: &str| document.error(&path.key(key), format!("`{key}` is missing")).mend(needs.clone());
-    let size =
-        |key: &str, size: Option<f64>| document.positive(&path.key(key), size.ok_or_else(|| missing(key))?);
-    let (radius, length) = (|| size("radius", written.radius), || size("length", written.length));
+    let given = Sizes::new(document, path, of, &sizes)?;
+    let (radius, length) =
+        (|| given.positive("radius", written.radius), || given.positive("length", written.length));
     Ok(match written.shape {
         BodyShapeName::Ball => BodyShape::Ball { radius: radius()? },
         BodyShapeName::Capsule => BodyShape::Capsule { radius: radius()?, length: length()? },
         BodyShapeName::Cylinder => BodyShape::Cylinder { radius: radius()?, length: length()? },
         BodyShapeName::Block => {
-            let size = written.size.ok_or_else(|| missing("size"))?;
+            let size = written.size.ok_or_else(|| given.missing("size"))?;
             for (i, edge) in size.into_iter().enumerate() {
                 document.positive(&path.key("size").index(i), edge)?;
             }

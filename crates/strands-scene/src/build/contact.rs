@@ -1,10 +1,10 @@
 //! What touches.
 
 use super::Context;
+use super::sizes::Sizes;
 use crate::document::{Document, KeyPath};
 use crate::error::SceneError;
 use crate::file::{ObstacleFile, ObstacleName};
-use crate::words;
 use strands::contact::{Obstacle, Shape, Surfaces};
 use strands::math::{Mat3, Vec3};
 
@@ -35,20 +35,12 @@ fn obstacle(document: &Document, path: &KeyPath, written: &ObstacleFile) -> Resu
         ("radius", written.radius.is_some()),
         ("length", written.length.is_some()),
     ];
-    let (name, keys): (_, &[&str]) = match written.shape {
+    let of: (_, &[&str]) = match written.shape {
         ObstacleName::Plane => ("a plane", &["position", "normal"]),
         ObstacleName::Sphere => ("a sphere", &["position", "radius"]),
         ObstacleName::Capsule => ("a capsule", &["position", "orientation", "radius", "length"]),
     };
-    let needs = format!("{name} is given by {}", words::quoted(keys));
-    if let Some((key, _)) = given.into_iter().find(|(key, given)| *given && !keys.contains(key)) {
-        let error = document.error(&path.key(key), format!("`{key}` does not belong to {name}"));
-        return Err(error.mend(needs));
-    }
-    let size = |key: &str, size: Option<f64>| {
-        let missing = || document.error(&path.key(key), format!("`{key}` is missing")).mend(needs.clone());
-        document.positive(&path.key(key), size.ok_or_else(missing)?)
-    };
+    let sizes = Sizes::new(document, path, of, &given)?;
     let position = written.position.map_or(Vec3::ZERO, Vec3::from);
     let shape = match written.shape {
         ObstacleName::Plane => {
@@ -59,17 +51,17 @@ fn obstacle(document: &Document, path: &KeyPath, written: &ObstacleFile) -> Resu
             Shape::Plane { point: position, normal }
         }
         ObstacleName::Sphere => {
-            Shape::Capsule { ends: [position; 2], radius: size("radius", written.radius)? }
+            Shape::Capsule { ends: [position; 2], radius: sizes.positive("radius", written.radius)? }
         }
         ObstacleName::Capsule => {
             let axes = match written.orientation {
                 Some(orientation) => document.quaternion(&path.key("orientation"), orientation)?.to_matrix(),
                 None => Mat3::IDENTITY,
             };
-            let half = axes.cols[2] * (0.5 * size("length", written.length)?);
+            let half = axes.cols[2] * (0.5 * sizes.positive("length", written.length)?);
             Shape::Capsule {
                 ends: [position - half, position + half],
-                radius: size("radius", written.radius)?,
+                radius: sizes.positive("radius", written.radius)?,
             }
         }
     };

@@ -10,6 +10,7 @@ mod profile;
 mod rest;
 mod rod;
 mod settings;
+mod sizes;
 mod table;
 
 pub(crate) use table::write_in;

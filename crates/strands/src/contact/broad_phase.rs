@@ -10,11 +10,15 @@ pub(crate) struct Aabb {
 }
 
 impl Aabb {
+    /// About a ball.
+    fn of_ball(middle: Vec3, radius: f64) -> Self {
+        let around = Vec3::new(radius, radius, radius);
+        Self { least: middle - around, greatest: middle + around }
+    }
+
     /// About two balls and all between.
     pub fn of_segment(a: Vec3, b: Vec3, radius: f64) -> Self {
-        let around = Vec3::new(radius, radius, radius);
-        let each = |f: fn(f64, f64) -> f64| Vec3::new(f(a.x, b.x), f(a.y, b.y), f(a.z, b.z));
-        Self { least: each(f64::min) - around, greatest: each(f64::max) + around }
+        Self::of_ball(a, radius).with(&Self::of_ball(b, radius))
     }
 
     /// The least box about both.
@@ -27,6 +31,10 @@ impl Aabb {
         }
     }
 
+    fn middle(&self) -> Vec3 {
+        (self.least + self.greatest) * 0.5
+    }
+
     fn overlaps(&self, other: &Self) -> bool {
         let before = |a: Vec3, b: Vec3| a.x <= b.x && a.y <= b.y && a.z <= b.z;
         before(self.least, other.greatest) && before(other.least, self.greatest)
@@ -35,10 +43,10 @@ impl Aabb {
 
 /// All pairs of boxes that overlap, the lesser number first, by a sweep along the axis in which their middles are spread most (Baraff & Witkin 1992).
 pub(crate) fn overlapping(boxes: &[Aabb], mut found: impl FnMut(usize, usize)) {
-    let middle = |aabb: &Aabb| (aabb.least + aabb.greatest) * (0.5 / boxes.len() as f64);
-    let mean = boxes.iter().fold(Vec3::ZERO, |sum, aabb| sum + middle(aabb));
+    let sum = boxes.iter().fold(Vec3::ZERO, |sum, aabb| sum + aabb.middle());
+    let mean = sum * (1.0 / boxes.len() as f64);
     let spread = boxes.iter().fold(Vec3::ZERO, |sum, aabb| {
-        let from = middle(aabb) * boxes.len() as f64 - mean;
+        let from = aabb.middle() - mean;
         sum + from.scale(from)
     });
     let axis = |v: Vec3| match (spread.x >= spread.y && spread.x >= spread.z, spread.y >= spread.z) {

@@ -100,6 +100,12 @@ const LEFT: f64 = 0.1;
 /// So many advances at most: what slides past something near needs many. It may go on from where it is then.
 const ADVANCES: usize = 2000;
 
+/// What part of a way on which a gap changes evenly may be taken.
+pub(crate) fn free_part_of_gap(before: f64, after: f64) -> f64 {
+    let (nearer, most) = (before - after, (1.0 - LEFT) * before);
+    if nearer <= most { 1.0 } else { (most / nearer).max(0.0) }
+}
+
 fn mean(shifts: &Ends) -> Vec3 {
     (shifts[0] + shifts[1] + shifts[2] + shifts[3]) * 0.25
 }

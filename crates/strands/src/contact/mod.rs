@@ -11,7 +11,7 @@ mod law;
 mod obstacle;
 
 pub(crate) use broad_phase::{Aabb, overlapping};
-pub(crate) use distance::{Ends, Nearest, fastest, free_part};
+pub(crate) use distance::{Ends, Nearest, fastest, free_part, free_part_of_gap};
 pub(crate) use law::{Law, Multipliers, Response};
 pub use obstacle::{Obstacle, Shape};
 
@@ -44,6 +44,16 @@ pub enum Toucher {
     },
     /// An obstacle.
     Obstacle(usize),
+}
+
+impl Toucher {
+    /// The rod that it is of.
+    pub fn rod(&self) -> Option<usize> {
+        match *self {
+            Self::Element { rod, .. } | Self::Node { rod, .. } => Some(rod),
+            Self::Obstacle(_) => None,
+        }
+    }
 }
 
 impl fmt::Display for Toucher {

@@ -4,7 +4,7 @@ use super::stage::Stage;
 use crate::assembly::{Assembly, Strand};
 use crate::contact::{
     Aabb, Contact, Ends, Law, Multipliers, Nearest, Response, Shape, Surfaces, Toucher, fastest, free_part,
-    overlapping,
+    free_part_of_gap, overlapping,
 };
 use crate::math::{Pose, Vec3, Wrench};
 use crate::statics::{Network, Touch, TouchEnd};
@@ -126,16 +126,13 @@ impl Contacts {
                     Shape::Capsule { ends, radius } if !of_node || ends[0] != ends[1] => (ends, radius, None),
                     Shape::Plane { .. } | Shape::Capsule { .. } => continue,
                 };
+                let law = law(obstacle.friction.unwrap_or(friction), stiffness[segment.rod], segment.radius);
+                let between = [segment.toucher, Toucher::Obstacle(number)];
                 let pair = Pair {
-                    between: [segment.toucher, Toucher::Obstacle(number)],
                     frames: [Some(segment.frames[0]), Some(segment.frames[1]), None, None],
                     still: [Vec3::ZERO, Vec3::ZERO, still[0], still[1]],
-                    radii: [segment.radius, radius],
-                    law: law(obstacle.friction.unwrap_or(friction), stiffness[segment.rod], segment.radius),
                     plane,
-                    known: Multipliers::NONE,
-                    looked: None,
-                    opposite: None,
+                    ..Pair::new(between, [segment.radius, radius], law)
                 };
                 if pair.comes_within(margin(segment), from, to) {
                     self.pairs.push(pair);
@@ -147,16 +144,10 @@ impl Contacts {
             if !may_touch(a, b) {
                 return;
             }
+            let law = law(friction, stiffness[a.rod].min(stiffness[b.rod]), a.radius.min(b.radius));
             let pair = Pair {
-                between: [a.toucher, b.toucher],
                 frames: [a.frames[0], a.frames[1], b.frames[0], b.frames[1]].map(Some),
-                still: [Vec3::ZERO; 4],
-                radii: [a.radius, b.radius],
-                law: law(friction, stiffness[a.rod].min(stiffness[b.rod]), a.radius.min(b.radius)),
-                plane: None,
-                known: Multipliers::NONE,
-                looked: None,
-                opposite: None,
+                ..Pair::new([a.toucher, b.toucher], [a.radius, b.radius], law)
             };
             if pair.comes_within(margin(a) + margin(b), from, to) {
                 self.pairs.push(pair);
@@ -278,7 +269,7 @@ impl Contacts {
         self.pairs.iter().filter(touches).map(|pair| {
             let ends = pair.ends(poses);
             let (_, normal, distance, places) = pair.geometry(&ends);
-            let gap = distance - pair.radii[0] - pair.radii[1];
+            let gap = distance - pair.thickness();
             let point = (places[0] - normal * pair.radii[0] + places[1] + normal * pair.radii[1]) * 0.5;
             let friction = pair.looked.map_or(pair.known.anchor, |looked| looked.response.friction);
             let force = normal * pair.known.pressed + friction;
@@ -288,6 +279,25 @@ impl Contacts {
 }
 
 impl Pair {
+    /// One that stands still, of which nothing is known.
+    fn new(between: [Toucher; 2], radii: [f64; 2], law: Law) -> Self {
+        Self {
+            between,
+            frames: [None; 4],
+            still: [Vec3::ZERO; 4],
+            radii,
+            law,
+            plane: None,
+            known: Multipliers::NONE,
+            looked: None,
+            opposite: None,
+        }
+    }
+
+    fn thickness(&self) -> f64 {
+        self.radii[0] + self.radii[1]
+    }
+
     fn ends(&self, poses: &[Pose]) -> Ends {
         core::array::from_fn(|k| self.frames[k].map_or(self.still[k], |frame| poses[frame].position))
     }
@@ -307,7 +317,7 @@ impl Pair {
 
     fn gap(&self, poses: &[Pose]) -> f64 {
         let (_, _, distance, _) = self.geometry(&self.ends(poses));
-        distance - self.radii[0] - self.radii[1]
+        distance - self.thickness()
     }
 
     /// Whether the gap may become less than so much on the way from some frames to others.
@@ -319,11 +329,10 @@ impl Pair {
 
     fn free_part(&self, from: &[Pose], to: &[Pose]) -> f64 {
         let (a, b) = (self.ends(from), self.ends(to));
-        let thickness = self.radii[0] + self.radii[1];
+        let thickness = self.thickness();
         if let Some(normal) = self.plane {
             let [before, after] = [a, b].map(|ends| (ends[0] - ends[2]).dot(normal) - thickness);
-            let nearer = before - after;
-            return if nearer <= 0.9 * before { 1.0 } else { (0.9 * before / nearer).max(0.0) };
+            return free_part_of_gap(before, after);
         }
         free_part(&a, &core::array::from_fn(|k| b[k] - a[k]), thickness)
     }
@@ -331,7 +340,7 @@ impl Pair {
     fn look(&mut self, stage: &mut Stage, poses: &[Pose]) -> f64 {
         let ends = self.ends(poses);
         let (nearest, normal, distance, _) = self.geometry(&ends);
-        let thickness = self.radii[0] + self.radii[1];
+        let thickness = self.thickness();
         let rests = RESTS * self.thin();
         let mut gap = distance - thickness - rests;
         let crossing = self.crossing(&ends) / (CROSSING * thickness);
@@ -339,7 +348,7 @@ impl Pair {
             gap += LET * thickness * (1.0 - crossing * crossing);
         }
         let arms = [normal * -self.radii[0], normal * self.radii[1]];
-        let weights = self.weights(&nearest);
+        let weights = nearest.weights();
         let mut relative = Vec3::ZERO;
         for (k, frame) in self.frames.iter().enumerate() {
             let Some(frame) = *frame else { continue };
@@ -374,15 +383,11 @@ impl Pair {
 
     /// Whether it is so near that it may soon touch.
     fn is_near(&self) -> bool {
-        self.looked.is_some_and(|looked| looked.distance - self.radii[0] - self.radii[1] < NEAR * self.thin())
+        self.looked.is_some_and(|looked| looked.distance - self.thickness() < NEAR * self.thin())
     }
 
     fn thin(&self) -> f64 {
         if self.radii[1] > 0.0 { self.radii[0].min(self.radii[1]) } else { self.radii[0] }
-    }
-
-    fn weights(&self, nearest: &Nearest) -> [f64; 4] {
-        if self.plane.is_some() { [1.0, 0.0, -1.0, 0.0] } else { nearest.weights() }
     }
 
     /// Whether it resists anything worth speaking of.
@@ -393,7 +398,7 @@ impl Pair {
     /// The ends that its force acts on, where it resists anything.
     fn touch_ends(&self) -> Option<[Option<TouchEnd>; 4]> {
         let Looked { nearest, ends, arms, .. } = self.looked.as_ref().filter(|_| self.resists())?;
-        let weights = self.weights(nearest);
+        let weights = nearest.weights();
         Some(core::array::from_fn(|k| {
             let frame = self.frames[k]?;
             Some(TouchEnd { frame, weight: weights[k], place: ends[k], touches: ends[k] + arms[k / 2] })
@@ -404,7 +409,7 @@ impl Pair {
         let ends = self.touch_ends()?;
         let Looked { nearest, ends: places, normal, distance, response, .. } = self.looked.as_ref()?;
         let bends = self.plane.is_none().then(|| {
-            let beside = 0.5 * CROSSING * (self.radii[0] + self.radii[1]);
+            let beside = 0.5 * CROSSING * self.thickness();
             let mut curvature = nearest.curvature(places, *normal, *distance, beside);
             curvature.iter_mut().flatten().for_each(|block| *block = block.scaled(-self.known.pressed));
             curvature

@@ -184,14 +184,17 @@ pub enum SimulationError {
 }
 
 impl SimulationError {
-    /// The rod that it is about, whose number its text names as `rod 0`.
-    pub fn rod(&self) -> Option<usize> {
+    /// The rods that it is about, whose numbers its text names as `rod 0`.
+    pub fn rods(&self) -> Vec<usize> {
         match self {
             Self::Law(rod)
             | Self::NotHeldThere { rod, .. }
             | Self::NoEquilibrium { rod, .. }
-            | Self::Massless { what: "rod", which: rod } => Some(*rod),
-            _ => None,
+            | Self::Massless { what: "rod", which: rod } => vec![*rod],
+            Self::Overlap { between } | Self::UnknownContact { between } => {
+                between.iter().filter_map(Toucher::rod).collect()
+            }
+            _ => Vec::new(),
         }
     }
 }

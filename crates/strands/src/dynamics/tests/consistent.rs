@@ -1,6 +1,6 @@
 //! Rods with the consistent mass matrix.
 
-use super::{ALL, BOTH, rod, suture};
+use super::{ALL, BOTH, Drift, drift, rod, suture};
 use crate::assembly::{MassMatrix, Strand};
 use crate::dynamics::{Integrator, Settings, Simulation, Start};
 use crate::math::{Pose, Vec3, Vec6};
@@ -53,13 +53,7 @@ fn momentum_is_kept_in_free_flight() {
     for integrator in ALL {
         let settings = Settings { integrator, time_step: 1e-3, ..Settings::default() };
         let mut simulation = moving(free(suture(20)), settings, thrown);
-        let (momentum, angular) = simulation.momentum();
-        for _ in 0..300 {
-            simulation.step().unwrap();
-        }
-        let (later, turned) = simulation.momentum();
-        let lost = (later - momentum).norm() / momentum.norm();
-        let lost_angular = (turned - angular).norm() / angular.norm();
+        let Drift { momentum: lost, angular: lost_angular, .. } = drift(&mut simulation, 300);
         let kept = match integrator {
             Integrator::Midpoint => 1e-10,
             Integrator::ImplicitEuler => 0.05,
@@ -79,18 +73,8 @@ fn the_midpoint_rule_keeps_energy_and_momentum() {
         ..Settings::default()
     };
     let mut simulation = moving(free(suture(10)), settings, thrown);
-    let began = simulation.energy().total();
-    let (momentum, angular) = simulation.momentum();
-    let (mut drift, mut most): (f64, f64) = (0.0, 0.0);
-    for _ in 0..10_000 {
-        simulation.step().unwrap();
-        let energy = simulation.energy();
-        most = most.max(energy.elastic / began);
-        drift = drift.max((energy.total() / began - 1.0).abs());
-    }
-    let (later, turned) = simulation.momentum();
-    let lost = (later - momentum).norm() / momentum.norm();
-    let lost_angular = (turned - angular).norm() / angular.norm();
+    let Drift { energy: drift, momentum: lost, angular: lost_angular, elastic: most } =
+        drift(&mut simulation, 10_000);
     assert!(most > 0.05, "it vibrates: {most}");
     assert!(drift < 1e-7 && lost < 1e-11 && lost_angular < 1e-11, "{drift:e} {lost:e} {lost_angular:e}");
 }

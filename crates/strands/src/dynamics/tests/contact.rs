@@ -32,6 +32,14 @@ fn free(rod: Rod, base: Pose, gravity: Vec3) -> Problem {
     Problem { loads, start: Support::free(base), ..Problem::cantilever(rod) }
 }
 
+/// A rod along z from a place on, held at both ends.
+fn held(rod: Rod, z: f64) -> Problem {
+    let base = Pose { position: Vec3::new(0.0, 0.0, z), ..Pose::IDENTITY };
+    let (last, problem) = (rod.elements(), free(rod, base, Vec3::ZERO));
+    let [a, b] = [0, last].map(|node| problem.rod.rest_poses()[node]);
+    Problem { start: Support::clamped(a), end: Support::clamped(b), ..problem }
+}
+
 fn steel() -> Rod {
     let steel = Material::from_poisson(200e9, 0.3, 7850.0).unwrap();
     rod(0.1, RADIUS, steel, Kinematics::Cosserat, 10)
@@ -146,12 +154,7 @@ fn a_suture_that_falls_onto_a_floor_comes_to_rest_there() {
 #[test]
 fn a_rod_comes_to_rest_across_another_and_on_a_ball() {
     // The first lies across, held at both ends; the second falls onto it off its middle and slides down, or sticks.
-    let held = {
-        let problem =
-            free(steel(), Pose { position: Vec3::new(0.0, 0.0, -0.05), ..Pose::IDENTITY }, Vec3::ZERO);
-        let [a, b] = [0, 10].map(|node| problem.rod.rest_poses()[node]);
-        Problem { start: Support::clamped(a), end: Support::clamped(b), ..problem }
-    };
+    let held = held(steel(), -0.05);
     let across = Mat3::from_cols(Vec3::X, -Vec3::Z, Vec3::Y);
     let base = Pose { rotation: across, position: Vec3::new(3e-3, -0.05, 0.003) };
     let falls = free(steel(), base, Vec3::X * -9.81);
@@ -280,12 +283,7 @@ fn nothing_passes_through_anything_however_long_the_steps() {
     // A thin strand falls onto one that is held, by many times their thickness in a step, and nothing is near at first.
     let nylon = Material::from_poisson(750e6, 0.4, 1300.0).unwrap();
     let thin = || rod(0.05, 1e-4, nylon, Kinematics::Cosserat, 20);
-    let held = {
-        let problem =
-            free(thin(), Pose { position: Vec3::new(0.0, 0.0, -0.025), ..Pose::IDENTITY }, Vec3::ZERO);
-        let [a, b] = [0, 20].map(|node| problem.rod.rest_poses()[node]);
-        Problem { start: Support::clamped(a), end: Support::clamped(b), ..problem }
-    };
+    let held = held(thin(), -0.025);
     let across = Mat3::from_cols(Vec3::X, -Vec3::Z, Vec3::Y);
     for (height, gravity) in [(6.5e-4, 9.81), (2e-3, 9.81), (5e-3, 98100.0)] {
         let base = Pose { rotation: across, position: Vec3::new(height, -0.024, 0.001) };
@@ -317,12 +315,7 @@ fn rods_that_cross_at_any_angle_rest_on_each_other() {
         let steel = || {
             rod(0.044, 1e-3, Material::from_poisson(200e9, 0.3, 7850.0).unwrap(), Kinematics::Cosserat, 22)
         };
-        let held = {
-            let problem =
-                free(steel(), Pose { position: Vec3::new(0.0, 0.0, -0.023), ..Pose::IDENTITY }, Vec3::ZERO);
-            let [a, b] = [0, 22].map(|node| problem.rod.rest_poses()[node]);
-            Problem { start: Support::clamped(a), end: Support::clamped(b), ..problem }
-        };
+        let held = held(steel(), -0.023);
         let turn = Quat::from_rotation_vector(Vec3::X * degrees.to_radians()).to_matrix();
         let base = Pose { rotation: turn, position: Vec3::new(2.1e-3, 0.0, 0.0) - turn.cols[2] * 0.023 };
         let falls = free(steel(), base, Vec3::X * -9.81);

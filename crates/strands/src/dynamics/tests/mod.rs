@@ -53,6 +53,33 @@ const ALL: [Integrator; 6] = [
 /// Of either mass matrix.
 const BOTH: [MassMatrix; 2] = [MassMatrix::Lumped, MassMatrix::Consistent];
 
+/// How a simulation drifts: its energy and both its momenta at most, or at the end, over what they were; and what part of the energy is elastic at most.
+struct Drift {
+    energy: f64,
+    momentum: f64,
+    angular: f64,
+    elastic: f64,
+}
+
+fn drift(simulation: &mut Simulation, steps: usize) -> Drift {
+    let began = simulation.energy().total();
+    let (momentum, angular) = simulation.momentum();
+    let (mut energy, mut elastic): (f64, f64) = (0.0, 0.0);
+    for _ in 0..steps {
+        simulation.step().unwrap();
+        let budget = simulation.energy();
+        elastic = elastic.max(budget.elastic / began);
+        energy = energy.max((budget.total() / began - 1.0).abs());
+    }
+    let (later, turned) = simulation.momentum();
+    Drift {
+        energy,
+        momentum: (later - momentum).norm() / momentum.norm(),
+        angular: (turned - angular).norm() / angular.norm(),
+        elastic,
+    }
+}
+
 #[test]
 fn integrators_have_their_order() {
     // So soft that no motion is faster than the steps.
@@ -124,13 +151,7 @@ fn a_rod_in_free_flight_keeps_its_momentum() {
             Vec6::new(Vec3::new(8.0, -5.0, 3.0), Vec3::new(0.4 * s - 0.3 * s * s, 0.9 * s, 0.2))
         };
         simulation.set_velocities(&(0..=20).map(velocity).collect::<Vec<_>>());
-        let (momentum, angular) = simulation.momentum();
-        for _ in 0..1000 {
-            simulation.step().unwrap();
-        }
-        let (later, turned) = simulation.momentum();
-        let lost = (later - momentum).norm() / momentum.norm();
-        let lost_angular = (turned - angular).norm() / angular.norm();
+        let Drift { momentum: lost, angular: lost_angular, .. } = drift(&mut simulation, 1000);
         // Only the midpoint rule keeps the latter by itself.
         let kept = match integrator {
             Integrator::Midpoint => 1e-10,
@@ -398,18 +419,8 @@ fn the_midpoint_rule_keeps_energy_and_momentum() {
         Vec6::new(Vec3::new(8.0, -5.0, 3.0), Vec3::new(0.8 - 6.0 * s * (1.0 - s), 0.9 * s - 0.44, 0.01))
     };
     simulation.set_velocities(&(0..=10).map(velocity).collect::<Vec<_>>());
-    let began = simulation.energy().total();
-    let (momentum, angular) = simulation.momentum();
-    let (mut drift, mut most): (f64, f64) = (0.0, 0.0);
-    for _ in 0..100_000 {
-        simulation.step().unwrap();
-        let energy = simulation.energy();
-        most = most.max(energy.elastic / began);
-        drift = drift.max((energy.total() / began - 1.0).abs());
-    }
-    let (later, turned) = simulation.momentum();
-    let lost = (later - momentum).norm() / momentum.norm();
-    let lost_angular = (turned - angular).norm() / angular.norm();
+    let Drift { energy: drift, momentum: lost, angular: lost_angular, elastic: most } =
+        drift(&mut simulation, 100_000);
     assert!(most > 0.05, "it vibrates: {most}");
     assert!(drift < 1e-6 && lost < 1e-10 && lost_angular < 1e-10, "{drift:e} {lost:e} {lost_angular:e}");
 }
