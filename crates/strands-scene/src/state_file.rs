@@ -12,7 +12,7 @@ use thiserror::Error;
 use crate::Model;
 
 /// The format that is written and read. In the first one angular momenta were about a place of all, and the second did not say what moves.
-const FORMAT: u32 = 3;
+const FORMAT: u32 = 4;
 
 /// Lengths and masses that differ by less than this part are the same.
 const SAME: f64 = 1e-12;
@@ -141,7 +141,7 @@ struct WrittenContact {
 enum WrittenToucher {
     Element { rod: usize, element: usize },
     Node { rod: usize, node: usize },
-    Obstacle(usize),
+    Obstacle { obstacle: usize, part: usize },
 }
 
 #[derive(Serialize, Deserialize)]
@@ -257,7 +257,7 @@ fn contact_out(contact: &Contact) -> WrittenContact {
     let between = contact.between.map(|toucher| match toucher {
         Toucher::Element { rod, element } => WrittenToucher::Element { rod, element },
         Toucher::Node { rod, node } => WrittenToucher::Node { rod, node },
-        Toucher::Obstacle(number) => WrittenToucher::Obstacle(number),
+        Toucher::Obstacle { obstacle, part } => WrittenToucher::Obstacle { obstacle, part },
     });
     let Contact { point, normal, gap, force, .. } = *contact;
     let [point, normal, force] = [point, normal, force].map(Vec3::to_array);
@@ -268,7 +268,7 @@ fn contact_in(written: WrittenContact) -> Contact {
     let between = written.between.map(|toucher| match toucher {
         WrittenToucher::Element { rod, element } => Toucher::Element { rod, element },
         WrittenToucher::Node { rod, node } => Toucher::Node { rod, node },
-        WrittenToucher::Obstacle(number) => Toucher::Obstacle(number),
+        WrittenToucher::Obstacle { obstacle, part } => Toucher::Obstacle { obstacle, part },
     });
     let [point, normal, force] = [written.point, written.normal, written.force].map(Vec3::from);
     Contact { between, point, normal, gap: written.gap, force }

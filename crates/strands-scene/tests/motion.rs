@@ -69,7 +69,7 @@ fn moved() -> (Model, Vec<Frame>) {
             velocity: Vec6::new(Vec3::ZERO, Vec3::Z),
         }],
         contacts: vec![Contact {
-            between: [Toucher::Element { rod: 0, element: 3 }, Toucher::Obstacle(0)],
+            between: [Toucher::Element { rod: 0, element: 3 }, Toucher::Obstacle { obstacle: 0, part: 0 }],
             point: Vec3::new(0.1, 0.2, 0.3),
             normal: Vec3::Z,
             gap: 1e-6,

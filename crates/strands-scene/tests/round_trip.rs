@@ -326,19 +326,40 @@ fn dynamics() -> impl Strategy<Value = DynamicsFile> {
 }
 
 fn obstacle() -> impl Strategy<Value = ObstacleFile> {
-    let shape = prop::sample::select(vec![ObstacleName::Plane, ObstacleName::Sphere, ObstacleName::Capsule]);
+    let shape = prop::sample::select(vec![
+        ObstacleName::Plane,
+        ObstacleName::Sphere,
+        ObstacleName::Capsule,
+        ObstacleName::Cylinder,
+        ObstacleName::Box,
+        ObstacleName::Tube,
+        ObstacleName::Mesh,
+    ]);
     let place = (prop::option::of(vector()), prop::option::of(vector()));
     let turned = prop::option::of([number(), number(), number(), number()]);
-    let sizes = [positive(), positive(), positive()].map(prop::option::of);
-    (shape, place, turned, sizes).prop_map(
-        |(shape, (position, normal), orientation, [radius, length, friction])| ObstacleFile {
-            shape,
-            position,
-            normal,
-            orientation,
-            radius,
-            length,
-            friction,
+    let sizes = [positive(), positive(), positive(), positive()].map(prop::option::of);
+    let mesh = (
+        prop::option::of(word()),
+        prop::option::of(prop::collection::vec(vector(), 0..4)),
+        prop::option::of(prop::collection::vec([0..9_usize, 0..9_usize, 0..9_usize], 0..4)),
+    );
+    (shape, place, turned, prop::option::of(vector()), sizes, mesh).prop_map(
+        |(shape, (position, normal), orientation, size, sizes, (file, corners, triangles))| {
+            let [radius, length, scale, friction] = sizes;
+            ObstacleFile {
+                shape,
+                position,
+                normal,
+                orientation,
+                radius,
+                length,
+                size,
+                file,
+                scale,
+                corners,
+                triangles,
+                friction,
+            }
         },
     )
 }

@@ -1,12 +1,14 @@
 //! What touches.
 
-use super::Context;
 use super::sizes::Sizes;
+use super::{Context, mesh};
 use crate::document::{Document, KeyPath};
 use crate::error::SceneError;
-use crate::file::{ObstacleFile, ObstacleName};
-use strands::contact::{Obstacle, Shape, Surfaces};
-use strands::math::{Mat3, Vec3};
+use crate::file::{ObstacleFile, ObstacleName, SceneFile};
+use std::path::Path;
+use std::sync::Arc;
+use strands::contact::{Mesh, Obstacle, Shape, Surfaces};
+use strands::math::{Mat3, Pose, Vec3};
 
 /// How surfaces touch, where the scene has contact.
 pub(super) fn surfaces(context: &Context) -> Result<Option<Surfaces>, SceneError> {
@@ -25,23 +27,44 @@ pub(super) fn surfaces(context: &Context) -> Result<Option<Surfaces>, SceneError
 pub(super) fn obstacles(context: &Context) -> Result<Vec<Obstacle>, SceneError> {
     let path = KeyPath::of("obstacles");
     let written = context.file.obstacles.iter().enumerate();
-    written.map(|(i, written)| obstacle(context.document, &path.index(i), written)).collect()
+    written.map(|(i, written)| obstacle(context, &path.index(i), written)).collect()
 }
 
-fn obstacle(document: &Document, path: &KeyPath, written: &ObstacleFile) -> Result<Obstacle, SceneError> {
+fn obstacle(context: &Context, path: &KeyPath, written: &ObstacleFile) -> Result<Obstacle, SceneError> {
+    let document = context.document;
     let given = [
         ("normal", written.normal.is_some()),
         ("orientation", written.orientation.is_some()),
         ("radius", written.radius.is_some()),
         ("length", written.length.is_some()),
+        ("size", written.size.is_some()),
+        ("file", written.file.is_some()),
+        ("scale", written.scale.is_some()),
+        ("corners", written.corners.is_some()),
+        ("triangles", written.triangles.is_some()),
     ];
     let of: (_, &[&str]) = match written.shape {
         ObstacleName::Plane => ("a plane", &["position", "normal"]),
         ObstacleName::Sphere => ("a sphere", &["position", "radius"]),
         ObstacleName::Capsule => ("a capsule", &["position", "orientation", "radius", "length"]),
+        ObstacleName::Cylinder => ("a cylinder", &["position", "orientation", "radius", "length"]),
+        ObstacleName::Box => ("a box", &["position", "orientation", "size"]),
+        ObstacleName::Tube => ("a tube", &["position", "orientation", "radius"]),
+        ObstacleName::Mesh => {
+            ("a mesh", &["position", "orientation", "file", "scale", "corners", "triangles"])
+        }
     };
     let sizes = Sizes::new(document, path, of, &given)?;
     let position = written.position.map_or(Vec3::ZERO, Vec3::from);
+    let rotation = match written.orientation {
+        Some(orientation) => document.quaternion(&path.key("orientation"), orientation)?.to_matrix(),
+        None => Mat3::IDENTITY,
+    };
+    let radius = || sizes.positive("radius", written.radius);
+    let ends = || {
+        let half = rotation.cols[2] * (0.5 * sizes.positive("length", written.length)?);
+        Ok([position - half, position + half])
+    };
     let shape = match written.shape {
         ObstacleName::Plane => {
             let normal = written.normal.map_or(Vec3::Z, Vec3::from).normalized().ok_or_else(|| {
@@ -50,24 +73,87 @@ fn obstacle(document: &Document, path: &KeyPath, written: &ObstacleFile) -> Resu
             })?;
             Shape::Plane { point: position, normal }
         }
-        ObstacleName::Sphere => {
-            Shape::Capsule { ends: [position; 2], radius: sizes.positive("radius", written.radius)? }
-        }
-        ObstacleName::Capsule => {
-            let axes = match written.orientation {
-                Some(orientation) => document.quaternion(&path.key("orientation"), orientation)?.to_matrix(),
-                None => Mat3::IDENTITY,
-            };
-            let half = axes.cols[2] * (0.5 * sizes.positive("length", written.length)?);
-            Shape::Capsule {
-                ends: [position - half, position + half],
-                radius: sizes.positive("radius", written.radius)?,
+        ObstacleName::Sphere => Shape::Capsule { ends: [position; 2], radius: radius()? },
+        ObstacleName::Capsule => Shape::Capsule { ends: ends()?, radius: radius()? },
+        ObstacleName::Cylinder => Shape::Cylinder { ends: ends()?, radius: radius()? },
+        ObstacleName::Tube => Shape::Bore { point: position, axis: rotation.cols[2], radius: radius()? },
+        ObstacleName::Box => {
+            let size = written.size.ok_or_else(|| sizes.missing("size"))?;
+            for (i, edge) in size.into_iter().enumerate() {
+                document.positive(&path.key("size").index(i), edge)?;
             }
+            Shape::block(position, size.map(|edge| 0.5 * edge), rotation.cols)
+        }
+        ObstacleName::Mesh => {
+            Shape::Mesh(Arc::new(placed(context, path, written, &Pose { rotation, position })?))
         }
     };
     let friction = written
         .friction
         .map(|friction| document.not_negative(&path.key("friction"), friction))
         .transpose()?;
-    Ok(Obstacle { shape, friction })
+    Ok(Obstacle { shape, friction, body: None })
+}
+
+/// A mesh from its file or as it is written, put where it is.
+fn placed(
+    context: &Context,
+    path: &KeyPath,
+    written: &ObstacleFile,
+    pose: &Pose,
+) -> Result<Mesh, SceneError> {
+    let ((corners, triangles), of) = triangles(context.document, context.folder, path, written)?;
+    let corners = corners.into_iter().map(|corner| pose.position + pose.rotation * Vec3::from(corner));
+    Mesh::new(corners.collect(), triangles).map_err(|error| {
+        let error = context.document.error(&path.key(of), error.to_string());
+        error.mend("give triangles by their corners, counted from 0")
+    })
+}
+
+/// The corners, m, and the triangles of a mesh, and the key that they are from.
+fn triangles(
+    document: &Document,
+    folder: Option<&Path>,
+    path: &KeyPath,
+    written: &ObstacleFile,
+) -> Result<(mesh::Triangles, &'static str), SceneError> {
+    let stray = |key: &str, beside: &str| {
+        let error = document.error(&path.key(key), format!("both `{beside}` and `{key}` are given"));
+        Err(error.mend("keep `file`, or `corners` with `triangles`"))
+    };
+    match (&written.file, &written.corners, &written.triangles) {
+        (Some(_), Some(_), _) => stray("corners", "file"),
+        (Some(_), None, Some(_)) => stray("triangles", "file"),
+        (None, Some(_), _) if written.scale.is_some() => {
+            let error = document.error(&path.key("scale"), "`scale` goes with `file` only");
+            Err(error.mend("remove it: corners are in metres"))
+        }
+        (Some(file), None, None) => {
+            let scale = document.positive(&path.key("scale"), written.scale.unwrap_or(1.0))?;
+            let (corners, triangles) = mesh::read(document, folder, &path.key("file"), file)?;
+            let corners = corners.into_iter().map(|corner| corner.map(|x| x * scale)).collect();
+            Ok(((corners, triangles), "file"))
+        }
+        (None, Some(corners), Some(triangles)) => Ok(((corners.clone(), triangles.clone()), "triangles")),
+        (None, corners, _) => {
+            let missing = if corners.is_some() { "triangles" } else { "file" };
+            let error = document.error(&path.key(missing), format!("`{missing}` is missing"));
+            Err(error.mend("give the mesh by `file = \"vessel.stl\"`, or by `corners` and `triangles`"))
+        }
+    }
+}
+
+/// Puts the meshes that a scene names into it, in place of their names.
+pub(super) fn write_in(
+    document: &Document,
+    file: &mut SceneFile,
+    folder: Option<&Path>,
+) -> Result<(), SceneError> {
+    let path = KeyPath::of("obstacles");
+    for (i, written) in file.obstacles.iter_mut().enumerate().filter(|(_, written)| written.file.is_some()) {
+        let ((corners, triangles), _) = triangles(document, folder, &path.index(i), written)?;
+        (written.file, written.scale) = (None, None);
+        (written.corners, written.triangles) = (Some(corners), Some(triangles));
+    }
+    Ok(())
 }

@@ -6,14 +6,13 @@ mod contact;
 mod hold;
 mod joint;
 mod load;
+mod mesh;
 mod profile;
 mod rest;
 mod rod;
 mod settings;
 mod sizes;
 mod table;
-
-pub(crate) use table::write_in;
 
 use crate::document::{Document, KeyPath};
 use crate::error::SceneError;
@@ -32,6 +31,16 @@ struct Context<'a> {
     gravity: Vec3,
     materials: IndexMap<&'a str, Material>,
     order: Order,
+}
+
+/// Puts the tables and meshes that a scene names into it, in place of their names.
+pub(crate) fn write_in(
+    document: &Document,
+    file: &mut SceneFile,
+    folder: Option<&Path>,
+) -> Result<(), SceneError> {
+    table::write_in(document, file, folder)?;
+    contact::write_in(document, file, folder)
 }
 
 /// Builds the model of a scene.

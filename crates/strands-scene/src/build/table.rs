@@ -11,7 +11,7 @@ const POINTS: [&str; 3] = ["x", "y", "z"];
 const SAMPLES: [&str; 4] = ["s", "kappa1", "kappa2", "tau"];
 
 /// Puts the tables that a scene names into it, in place of their names.
-pub(crate) fn write_in(
+pub(super) fn write_in(
     document: &Document,
     file: &mut SceneFile,
     folder: Option<&Path>,

@@ -2,6 +2,7 @@
 
 use super::Held;
 use strands::assembly::{self, Body};
+use strands::contact::Shape;
 use strands::math::Vec3;
 use strands::rod::NodeInertia;
 
@@ -51,6 +52,19 @@ pub enum BodyShape {
 }
 
 impl BodyShape {
+    /// Its surface, in its own axes.
+    pub(super) fn surface(&self) -> Shape {
+        let ends = |length: f64| [Vec3::Z * (-0.5 * length), Vec3::Z * (0.5 * length)];
+        match *self {
+            Self::Ball { radius } => Shape::Capsule { ends: [Vec3::ZERO; 2], radius },
+            Self::Capsule { radius, length } => Shape::Capsule { ends: ends(length), radius },
+            Self::Cylinder { radius, length } => Shape::Cylinder { ends: ends(length), radius },
+            Self::Block { size } => {
+                Shape::block(Vec3::ZERO, size.map(|edge| 0.5 * edge), [Vec3::X, Vec3::Y, Vec3::Z])
+            }
+        }
+    }
+
     /// The inertia of the solid shape of a density, kg/m³.
     pub(crate) fn inertia(self, density: f64) -> NodeInertia {
         match self {

@@ -3,6 +3,7 @@
 use super::{Model, ModelBody, ModelRod};
 use crate::file::IntegratorName;
 use strands::assembly::{Assembly, JointKind, Keyframes, Member, Strand};
+use strands::contact::Obstacle;
 use strands::dynamics::{self, Integrator, Simulation, SimulationError, Start};
 use strands::math::{Vec3, Vec6};
 use strands::rod::Kinematics;
@@ -28,8 +29,23 @@ impl Model {
             moving: rods.chain(bodies).collect(),
             wind: self.wind,
             surfaces: self.surfaces,
-            obstacles: self.obstacles.clone(),
+            obstacles: self.obstacles.iter().cloned().chain(self.body_surfaces()).collect(),
         }
+    }
+
+    /// The surfaces of bodies, which are touched as obstacles that move.
+    fn body_surfaces(&self) -> impl Iterator<Item = Obstacle> {
+        let surface = |(body, of): (usize, &ModelBody)| {
+            let shape = of.shape.as_ref()?.surface();
+            Some(Obstacle { shape, friction: None, body: Some(body) })
+        };
+        self.bodies.iter().enumerate().filter_map(surface)
+    }
+
+    /// The body that a surface of the [assembly](Model::assembly) is of, where it is none of the scene's obstacles.
+    pub fn body_of_surface(&self, obstacle: usize) -> Option<&ModelBody> {
+        let at = obstacle.checked_sub(self.obstacles.len())?;
+        self.bodies.iter().filter(|body| body.shape.is_some()).nth(at)
     }
 
     /// Where all starts. From rest it sets off as the scene says.

@@ -50,6 +50,14 @@ impl Nearest {
         Self { at: [s, t], slides: [inside(s), inside(t)], apart: from + along * s - other * t }
     }
 
+    /// Of a point (the first two) and an endless line through two places.
+    pub fn of_point_and_line(ends: &Ends) -> Self {
+        let [point, _, c, d] = *ends;
+        let (along, from) = (d - c, point - c);
+        let t = from.dot(along) / along.dot(along);
+        Self { at: [0.0, t], slides: [false, true], apart: from - along * t }
+    }
+
     /// How much of each end the place on its segment has, less on the second.
     pub fn weights(&self) -> [f64; 4] {
         let [s, t] = self.at;
@@ -123,10 +131,15 @@ pub(crate) fn free_part(ends: &Ends, shifts: &Ends, thickness: f64) -> f64 {
     let fastest = fastest(shifts);
     let mean = mean(shifts);
     let relative = shifts.map(|shift| shift - mean);
+    advance(ends, &relative, fastest, |ends| Nearest::of(ends).apart.norm() - thickness)
+}
+
+/// What part of points' shifts may be taken so that a gap between them, which closes by no more than `fastest` on the whole way, stays open.
+pub(crate) fn advance(points: &Ends, shifts: &Ends, fastest: f64, gap: impl Fn(&Ends) -> f64) -> f64 {
     let gap_at = |part: f64| {
-        let mut moved = *ends;
-        moved.iter_mut().zip(&relative).for_each(|(end, shift)| *end += *shift * part);
-        Nearest::of(&moved).apart.norm() - thickness
+        let mut moved = *points;
+        moved.iter_mut().zip(shifts).for_each(|(end, shift)| *end += *shift * part);
+        gap(&moved)
     };
     let gap = gap_at(0.0);
     if fastest <= (1.0 - LEFT) * gap {

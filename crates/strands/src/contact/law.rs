@@ -23,6 +23,9 @@ pub(crate) struct Law {
     pub stiffness: f64,
     /// The smoothing `ε`, N.
     pub smoothing: f64,
+    /// How far surfaces give way at most, m, and the load that takes half of it, N.
+    pub gives: f64,
+    pub load: f64,
     /// The stiffness `κ`, N/m.
     sticking: f64,
 }
@@ -54,8 +57,13 @@ pub(crate) struct Response {
 }
 
 impl Law {
-    pub fn new(friction: f64, stiffness: f64, smoothing: f64) -> Self {
-        Self { friction, stiffness, smoothing, sticking: STICKING * stiffness }
+    pub fn new(friction: f64, stiffness: f64, smoothing: f64, (gives, load): (f64, f64)) -> Self {
+        Self { friction, stiffness, smoothing, gives, load, sticking: STICKING * stiffness }
+    }
+
+    /// Lets what is known to press slide after a slip of no more than so much, m.
+    pub fn slides_after(&mut self, slip: f64, pressed: f64) {
+        self.sticking = self.sticking.max(self.friction * pressed / slip);
     }
 
     /// Lets what sticks slip less.
@@ -71,16 +79,18 @@ impl Law {
         normal: Vec3,
         gap: f64,
         slip: Vec3,
-        before: Option<&Response>,
+        before: Option<&(Response, f64)>,
     ) -> Response {
-        let Self { friction, stiffness: rho, smoothing, sticking: kappa } = *self;
+        let Self { friction, stiffness: rho, smoothing, gives, load, sticking: kappa } = *self;
         let pressed = known.pressed;
-        let z = pressed - rho * gap;
+        let given = gives * pressed / (load + pressed);
+        let by_force = gives * load / ((load + pressed) * (load + pressed));
+        let z = pressed - rho * (gap + given);
         let root = (z * z + 4.0 * smoothing * smoothing).sqrt();
         // Without cancellation where it is nearly nought.
         let projected = if z > 0.0 { 0.5 * (z + root) } else { 2.0 * smoothing * smoothing / (root - z) };
         let touches = projected / root;
-        let soft = (1.0 - touches).max(LENT);
+        let soft = (1.0 - touches + touches * rho * by_force).max(LENT);
         let by_gap = rho * touches / soft;
         let pull = (projected - pressed) / soft;
         let across = Mat3::IDENTITY - Mat3::outer(normal, normal);
@@ -109,10 +119,10 @@ impl Law {
             response.friction = way * bound;
             response.pull += way * (friction * pull);
             // Where it slid the other way before, the answer is between: along the secant.
-            let turned = before.filter(|before| before.friction.dot(way) < 0.0);
-            let secant = turned.map_or(0.0, |before| {
+            let turned = before.filter(|(before, _)| before.friction.dot(way) < 0.0);
+            let secant = turned.map_or(0.0, |(before, counts)| {
                 let gone = (slip - before.slip).norm();
-                ((response.friction - before.friction).norm() / gone.max(bound / kappa)).min(kappa)
+                counts * ((response.friction - before.friction).norm() / gone.max(bound / kappa)).min(kappa)
             });
             response.stiffness = response.stiffness
                 + Mat3::outer(way, way).scaled(secant)

@@ -5,15 +5,22 @@
 //! obstacle. Forces and gaps are solved for with the frames (`law`), and no iteration goes further than surfaces allow (`distance`), so nothing ever passes
 //! through anything.
 
-mod broad_phase;
+mod aabb;
 mod distance;
 mod law;
+mod meeting;
+mod mesh;
 mod obstacle;
+mod tree;
 
-pub(crate) use broad_phase::{Aabb, overlapping};
-pub(crate) use distance::{Ends, Nearest, fastest, free_part, free_part_of_gap};
+pub(crate) use aabb::Aabb;
+pub(crate) use distance::Ends;
 pub(crate) use law::{Law, Multipliers, Response};
+pub(crate) use meeting::{Kind, Meeting};
+pub use mesh::{Mesh, MeshError};
+pub(crate) use obstacle::Part;
 pub use obstacle::{Obstacle, Shape};
+pub(crate) use tree::Tree;
 
 use crate::math::Vec3;
 use core::fmt;
@@ -43,7 +50,12 @@ pub enum Toucher {
         node: usize,
     },
     /// An obstacle.
-    Obstacle(usize),
+    Obstacle {
+        /// Which obstacle.
+        obstacle: usize,
+        /// Which of the pieces of its surface: a face or an edge.
+        part: usize,
+    },
 }
 
 impl Toucher {
@@ -51,7 +63,15 @@ impl Toucher {
     pub fn rod(&self) -> Option<usize> {
         match *self {
             Self::Element { rod, .. } | Self::Node { rod, .. } => Some(rod),
-            Self::Obstacle(_) => None,
+            Self::Obstacle { .. } => None,
+        }
+    }
+
+    /// The obstacle that it is.
+    pub(crate) fn obstacle(&self) -> Option<usize> {
+        match *self {
+            Self::Obstacle { obstacle, .. } => Some(obstacle),
+            Self::Element { .. } | Self::Node { .. } => None,
         }
     }
 }
@@ -61,7 +81,7 @@ impl fmt::Display for Toucher {
         match self {
             Self::Element { rod, element } => write!(f, "element {element} of rod {rod}"),
             Self::Node { rod, node } => write!(f, "node {node} of rod {rod}"),
-            Self::Obstacle(number) => write!(f, "obstacle {number}"),
+            Self::Obstacle { obstacle, .. } => write!(f, "obstacle {obstacle}"),
         }
     }
 }

@@ -1,18 +1,22 @@
-//! What stands still and is touched.
+//! What is touched beside rods, and of what its surface is made.
 
+use super::mesh::Mesh;
 use crate::math::Vec3;
+use std::sync::Arc;
 
-/// A thing that does not move.
-#[derive(Clone, Copy, Debug, PartialEq)]
+/// A thing that rods touch.
+#[derive(Clone, Debug, PartialEq)]
 pub struct Obstacle {
-    /// Its shape, in the world.
+    /// Its shape: in the world, or in the axes of the body that it is of.
     pub shape: Shape,
     /// The coefficient of friction on it, where it has one of its own.
     pub friction: Option<f64>,
+    /// The body that it is of; else it stands still.
+    pub body: Option<usize>,
 }
 
 /// The shape of an obstacle.
-#[derive(Clone, Copy, Debug, PartialEq)]
+#[derive(Clone, Debug, PartialEq)]
 pub enum Shape {
     /// All behind a plane.
     Plane {
@@ -28,4 +32,86 @@ pub enum Shape {
         /// The radius, m.
         radius: f64,
     },
+    /// A cylinder with flat ends, whose rims are polygons of 64 corners.
+    Cylinder {
+        /// The middles of its ends, m.
+        ends: [Vec3; 2],
+        /// The radius, m.
+        radius: f64,
+    },
+    /// All around a bore without end: rods are inside.
+    Bore {
+        /// A point on its axis, m.
+        point: Vec3,
+        /// The unit direction of its axis.
+        axis: Vec3,
+        /// The radius, m.
+        radius: f64,
+    },
+    /// A surface of triangles, touched from either side.
+    Mesh(Arc<Mesh>),
+}
+
+/// A piece of a surface, as a rod meets it.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(crate) enum Part {
+    /// Nodes meet it.
+    Plane { point: Vec3, normal: Vec3 },
+    /// Elements meet it, and where it is long nodes too: all of a capsule, or only what is between its ends.
+    Round { ends: [Vec3; 2], radius: f64, capped: bool },
+    /// Nodes meet it, from the inside.
+    Bore { point: Vec3, axis: Vec3, radius: f64 },
+    /// Nodes meet it, where they are above or below.
+    Face { corners: [Vec3; 3] },
+}
+
+/// So many corners has the rim of a cylinder.
+const RIM: usize = 64;
+
+impl Shape {
+    /// A box about a middle, with half extents along unit axes, m.
+    pub fn block(middle: Vec3, half: [f64; 3], axes: [Vec3; 3]) -> Self {
+        Self::Mesh(Arc::new(Mesh::block(middle, half, axes)))
+    }
+
+    /// Of what its surface is made.
+    pub(crate) fn parts(&self) -> Vec<Part> {
+        match self {
+            Self::Plane { point, normal } => vec![Part::Plane { point: *point, normal: *normal }],
+            Self::Capsule { ends, radius } => {
+                vec![Part::Round { ends: *ends, radius: *radius, capped: true }]
+            }
+            Self::Bore { point, axis, radius } => {
+                vec![Part::Bore { point: *point, axis: *axis, radius: *radius }]
+            }
+            Self::Cylinder { ends, radius } => cylinder(*ends, *radius),
+            Self::Mesh(mesh) => {
+                let faces = mesh.triangles().map(|corners| Part::Face { corners });
+                faces.chain(mesh.edges().map(edge)).collect()
+            }
+        }
+    }
+}
+
+fn edge(ends: [Vec3; 2]) -> Part {
+    Part::Round { ends, radius: 0.0, capped: true }
+}
+
+fn cylinder(ends: [Vec3; 2], radius: f64) -> Vec<Part> {
+    let mut parts = vec![Part::Round { ends, radius, capped: false }];
+    let axis = (ends[1] - ends[0]).normalized().unwrap_or(Vec3::Z);
+    let first = axis.any_orthonormal();
+    let second = axis.cross(first);
+    for middle in ends {
+        let corner = |k: usize| {
+            let (sin, cos) = (core::f64::consts::TAU * k as f64 / RIM as f64).sin_cos();
+            middle + (first * cos + second * sin) * radius
+        };
+        for k in 0..RIM {
+            let rim = [corner(k), corner((k + 1) % RIM)];
+            parts.push(edge(rim));
+            parts.push(Part::Face { corners: [middle, rim[0], rim[1]] });
+        }
+    }
+    parts
 }

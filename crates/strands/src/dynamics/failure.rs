@@ -128,9 +128,6 @@ pub enum SimulationError {
         /// Of what.
         between: [Toucher; 2],
     },
-    /// Bodies have no surfaces yet, and what joints tie overlaps.
-    #[error("contact is for rods and obstacles, without bodies and joints: leave out the contact, or these")]
-    NoContactOfBodies,
     /// Surfaces pass into each other where all starts.
     #[error("where all starts {} passes into {}: put them apart", between[0], between[1])]
     Overlap {

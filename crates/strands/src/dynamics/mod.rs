@@ -15,7 +15,9 @@ mod holds;
 mod inertia;
 mod integrator;
 mod midpoint;
+mod near;
 mod newton;
+mod pair;
 mod piece;
 mod stage;
 mod start;
@@ -155,6 +157,8 @@ struct Work {
     viscous: Vec<(Range<usize>, Range<usize>)>,
     history: Vec<f64>,
     contacts: Contacts,
+    /// Whether a stage that does not come nearer to a solution soon is given up.
+    hasty: bool,
 }
 
 impl Simulation {
@@ -185,8 +189,7 @@ impl Simulation {
         let groups = clusters.into_iter().map(|Cluster { rods, bodies }| {
             let is_tied = |rod: &usize| assembly.nodes(*rod).any(|frame| ties.tied[frame]);
             let alone = bodies.is_empty() && !rods.iter().any(is_tied);
-            let network = (!alone || touch)
-                .then(|| Network::new(&assembly, &ties, &rods, &bodies, core::iter::empty()));
+            let network = (!alone || touch).then(|| Network::new(&assembly, &ties, &rods, &bodies));
             let rods = rods.iter().map(|rod| RodSystem::new(&assembly, *rod)).collect();
             Group { rods, bodies, network }
         });
@@ -207,6 +210,7 @@ impl Simulation {
             viscous: Vec::new(),
             history: Vec::new(),
             contacts: Contacts::default(),
+            hasty: false,
         };
         let first = assembly.strands.first().map(|strand| strand.problem.rod.description().base.position);
         let origin = first.unwrap_or(Vec3::ZERO);
@@ -226,6 +230,7 @@ impl Simulation {
         if matches!(self.state.past, Past::Rates { .. }) {
             self.state.past = Past::None;
         }
+        self.work.contacts.forget();
         &mut self.assembly
     }
 
@@ -258,7 +263,7 @@ impl Simulation {
                 self.assembly.strands.get(rod).is_some_and(|strand| element < strand.problem.rod.elements())
             }
             Toucher::Node { rod, node } => self.assembly.frame(Member::Node { rod, node }).is_some(),
-            Toucher::Obstacle(number) => number < self.assembly.obstacles.len(),
+            Toucher::Obstacle { obstacle, .. } => obstacle < self.assembly.obstacles.len(),
         };
         if let Some(contact) = state.contacts.iter().find(|contact| !contact.between.iter().all(known)) {
             return Err(SimulationError::UnknownContact { between: contact.between });
@@ -339,9 +344,6 @@ fn check(assembly: &Assembly, settings: &Settings) -> Result<(), SimulationError
         }
         if settings.bounded {
             return Err(SimulationError::UnboundedContact);
-        }
-        if !(assembly.bodies.is_empty() && assembly.joints.is_empty()) {
-            return Err(SimulationError::NoContactOfBodies);
         }
     }
     if let Some(error) = settings.local_error {

@@ -5,7 +5,6 @@ use super::contacts::Contacts;
 use super::stage::{Resistance, Stage};
 use super::{Simulation, State, StepFailure, Taken};
 use crate::assembly::{Assembly, MassMatrix, Member, Strand, Ties};
-use crate::contact::Contact;
 use crate::math::{Pose, SimdLevel, Vec3, Wrench, larger};
 use crate::rod::{Kinematics, NodeInertia};
 use crate::statics::{Motion, Network, Nodal, Problem, Record, Slopes, Support, meet, rigid_compliance};
@@ -32,6 +31,8 @@ const OF_GUESS: f64 = 1e-2;
 const SHORTENED: usize = 20;
 /// Friction is told anew where no more than this part of what slips that sticks is left over of all else.
 const ANCHORED: f64 = 1e-1;
+/// What can be cut is given up where so many iterations have left more than there was at first.
+const SOON: usize = 8;
 /// So much of what surfaces allow is taken.
 const WITHIN: f64 = 0.9;
 
@@ -235,10 +236,19 @@ impl Group {
             let lends = (lent(problem, stage.of_rate, (0.0, 0.0)), slopes);
             return system.nodal.linearise_moving(problem, level, lends, &motion, &system.record).residual();
         }
+        let resistance = Resistance { lost: given.lost, air: None };
+        for &body in &self.bodies {
+            let frame = assembly.first_body() + body;
+            let of = &poses[frame..frame + 1];
+            stage.take_inertia(frame..frame + 1, given.inertia, of, &resistance, (level, slopes));
+        }
         self.give_frames(poses);
         let off = contacts.look(stage, poses);
-        self.tie_what_touches(assembly, given.ties, contacts);
         let Some(network) = &mut self.network else { return f64::NAN };
+        let new = contacts.new_ties(network).map(Iterator::collect::<Vec<_>>);
+        if let Some(touching) = new {
+            network.tie(&touching);
+        }
         let origin = poses[network.frames()[0]].position;
         let axes = network.axes(assembly, origin);
         let bodies = self.bodies.iter().map(|body| &assembly.bodies[*body]);
@@ -253,11 +263,9 @@ impl Group {
             let RodSystem { nodal, record, .. } = system;
             slack = larger(slack, nodal.linearise_in(axes, problem, level, lends, &motion, record).slack);
         }
-        let resistance = Resistance { lost: given.lost, air: None };
         for &body in &self.bodies {
             let frame = assembly.first_body() + body;
             let pose = poses[frame];
-            stage.take_inertia(frame..frame + 1, given.inertia, &[pose], &resistance, (level, slopes));
             let NodeInertia { mass, .. } = given.inertia[frame];
             let moved = f64::EPSILON * pose.position.max_abs() / (stage.of_rate * stage.of_rate);
             let unsure = ROUND_OFF * mass * moved / given.tolerance;
@@ -356,7 +364,8 @@ impl Group {
         state: &State,
     ) -> bool {
         let Some(surfaces) = &assembly.surfaces else { return true };
-        contacts.find(assembly, surfaces, &state.poses, poses, of_rate, &state.contacts);
+        let friction = surfaces.friction;
+        contacts.begin(assembly, friction, (&state.poses, poses), of_rate, &state.contacts);
         let free = contacts.free_part(&state.poses, poses);
         if free < 1.0 {
             let part = WITHIN * free;
@@ -368,28 +377,9 @@ impl Group {
             self.meet(assembly, ties, poses);
             self.take_frames(poses);
             // What is held goes another way then.
-            contacts.find(assembly, surfaces, &state.poses, poses, of_rate, &state.contacts);
+            contacts.begin(assembly, friction, (&state.poses, poses), of_rate, &state.contacts);
         }
-        let may = contacts.free_part(&state.poses, poses) == 1.0;
-        contacts.begin_at(poses);
-        may
-    }
-
-    /// Makes the linear system anew where other rods touch.
-    fn tie_what_touches(&mut self, assembly: &Assembly, ties: &Ties, contacts: &mut Contacts) {
-        if contacts.has_new_pairs() {
-            let rods: Vec<usize> = self.rods.iter().map(|system| system.rod).collect();
-            self.network = Some(Network::new(assembly, ties, &rods, &self.bodies, contacts.frames()));
-        }
-    }
-
-    /// Finds anew what may touch, where a frame has gone far since it was found.
-    fn find_anew(&self, assembly: &Assembly, of_rate: f64, contacts: &mut Contacts, poses: &[Pose]) {
-        let Some(surfaces) = &assembly.surfaces else { return };
-        if contacts.has_gone_far(poses) {
-            let known: Vec<Contact> = contacts.contacts(poses).collect();
-            contacts.find(assembly, surfaces, poses, poses, of_rate, &known);
-        }
+        contacts.free_part(&state.poses, poses) == 1.0
     }
 
     /// Puts nodes where they are held.
@@ -529,7 +519,8 @@ impl Simulation {
                 break residual;
             }
             last |= solved;
-            if spent {
+            let strays = work.hasty && iterations >= SOON && residual > work.history[0];
+            if spent || strays {
                 return Err(StepFailure::NotConverged { time, step, history: work.history.clone() });
             }
             if slopes == Slopes::Kept && residual > tolerance.max(floor).max(SERVES * before) {
@@ -544,7 +535,9 @@ impl Simulation {
                 return Err(singular(&work.history));
             }
             let size = group.step(assembly, ties, level, contacts, &mut work.poses);
-            group.find_anew(assembly, stage.of_rate, contacts, &work.poses);
+            if assembly.surfaces.is_some() {
+                contacts.follow(assembly, &work.poses);
+            }
             let near = size <= NEAR && group.keeps_slopes(stage);
             slopes = if near { Slopes::Kept } else { Slopes::Anew };
             (before, given.tolerance) = (residual, tolerance);

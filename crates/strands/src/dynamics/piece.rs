@@ -279,6 +279,7 @@ impl Simulation {
         state.momenta.copy_from_slice(&stage.momenta);
         state.contacts.clear();
         state.contacts.extend(contacts.contacts(poses));
+        state.contacts.sort_by_key(|contact| contact.between);
         state.dissipated += lost.dissipated;
         state.worked += lost.worked;
         state.time += seconds;

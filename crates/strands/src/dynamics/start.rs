@@ -42,7 +42,7 @@ impl Simulation {
     fn overlap(&mut self) -> Option<[Toucher; 2]> {
         let Self { assembly, state, work, .. } = self;
         let surfaces = assembly.surfaces.as_ref()?;
-        work.contacts.find(assembly, surfaces, &state.poses, &state.poses, 1.0, &[]);
+        work.contacts.begin(assembly, surfaces.friction, (&state.poses, &state.poses), 1.0, &[]);
         work.contacts.overlap(&state.poses)
     }
 

@@ -63,6 +63,8 @@ impl Simulation {
     fn whole_or_in_pieces(&mut self, held: &Held) -> Result<Step, StepFailure> {
         let (integrator, bounded) = (self.settings.integrator, self.settings.bounded);
         self.work.before.clone_from(&self.state);
+        // Where surfaces touch, what does not come nearer to a solution soon is better cut.
+        self.work.hasty = self.assembly.surfaces.is_some();
         let whole = self.piece(integrator, held, WHOLE);
         let failure = match whole {
             Ok(taken) if bounded || self.follows() => return Ok(self.report(taken, self.work.step, 1)),
@@ -81,6 +83,7 @@ impl Simulation {
         };
         for pieces in PIECES {
             let finest = pieces == PIECES[PIECES.len() - 1];
+            self.work.hasty &= !finest;
             if let Some(taken) = self.pieces(alone, held, pieces, finest) {
                 // Not a sum of pieces.
                 self.state.time = before.time + self.work.step;
@@ -89,9 +92,9 @@ impl Simulation {
             self.state.clone_from(&before);
         }
         match failure {
-            Some(failure) => Err(failure),
-            // Solved, if not followed: nothing looks back on it.
-            None => {
+            Some(failure) if self.assembly.surfaces.is_none() => Err(failure),
+            // Given up too soon, or solved, if not followed: nothing looks back on it.
+            _ => {
                 let taken = self.piece(integrator, held, WHOLE)?;
                 if alone != integrator {
                     self.state.past = Past::None;

@@ -46,6 +46,16 @@ impl Vec3<f64> {
         self.x.is_finite() && self.y.is_finite() && self.z.is_finite()
     }
 
+    /// The lesser of each two parts.
+    pub fn min(self, other: Self) -> Self {
+        Self::new(self.x.min(other.x), self.y.min(other.y), self.z.min(other.z))
+    }
+
+    /// The greater of each two parts.
+    pub fn max(self, other: Self) -> Self {
+        Self::new(self.x.max(other.x), self.y.max(other.y), self.z.max(other.z))
+    }
+
     /// A unit vector at right angles to this one.
     pub fn any_orthonormal(self) -> Self {
         let (x, y, z) = (self.x.abs(), self.y.abs(), self.z.abs());

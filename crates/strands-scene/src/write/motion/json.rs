@@ -100,6 +100,7 @@ enum ToucherAnswer<'a> {
     Element { rod: &'a str, element: usize },
     Node { rod: &'a str, node: usize },
     Obstacle { obstacle: usize },
+    Body { body: &'a str },
 }
 
 /// A simulation as one JSON object: `scene`, `status` ("finished", "interrupted", or "failed" with the `reason`), `steps`, `real_time_factor` (simulated
@@ -109,8 +110,8 @@ enum ToucherAnswer<'a> {
 ///
 /// A rod has at its nodes `s` (m), `position` (m), `orientation` (quaternion, w first), `velocity` (m/s, world axes) and `angular_velocity` (rad/s, the
 /// node's own axes); at its elements `strain` and `stress` as [`json`](fn@crate::write::json) has them; and, where they are known, its `reactions`. Where there
-/// are `bodies`, each has the four of a node. Where surfaces touch there are `contacts`, each with what it is `between` (a `rod` and its `element` or `node`, or the number
-/// of an `obstacle`), its `point` (m), the `normal` from the second to the first, the `gap` (m) and the `force` of the second on the first (N).
+/// are `bodies`, each has the four of a node. Where surfaces touch there are `contacts`, each with what it is `between` (a `rod` and its `element` or `node`, the number
+/// of an `obstacle`, or a `body`), its `point` (m), the `normal` from the second to the first, the `gap` (m) and the `force` of the second on the first (N).
 pub fn motion_json(model: &Model, frames: &[Frame], ran: &Ran) -> String {
     let (status, reason) = match &ran.end {
         End::Finished => ("finished", None),
@@ -173,7 +174,10 @@ fn contact<'a>(model: &'a Model, contact: &Contact) -> ContactAnswer<'a> {
     let between = contact.between.map(|toucher| match toucher {
         Toucher::Element { rod, element } => ToucherAnswer::Element { rod: name(rod), element },
         Toucher::Node { rod, node } => ToucherAnswer::Node { rod: name(rod), node },
-        Toucher::Obstacle(obstacle) => ToucherAnswer::Obstacle { obstacle },
+        Toucher::Obstacle { obstacle, .. } => match model.body_of_surface(obstacle) {
+            Some(body) => ToucherAnswer::Body { body: &body.name },
+            None => ToucherAnswer::Obstacle { obstacle },
+        },
     });
     let Contact { point, normal, gap, force, .. } = *contact;
     ContactAnswer {

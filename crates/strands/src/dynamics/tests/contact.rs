@@ -9,11 +9,11 @@ use crate::math::{Mat3, Pose, Quat, Vec3, Wrench};
 use crate::rod::{Kinematics, Material, Order, Rod};
 use crate::statics::{Problem, Support};
 
-const RADIUS: f64 = 1e-3;
+pub(super) const RADIUS: f64 = 1e-3;
 const FLOOR: Obstacle =
-    Obstacle { shape: Shape::Plane { point: Vec3::ZERO, normal: Vec3::X }, friction: None };
+    Obstacle { shape: Shape::Plane { point: Vec3::ZERO, normal: Vec3::X }, friction: None, body: None };
 
-const EULER: Settings = Settings {
+pub(super) const EULER: Settings = Settings {
     integrator: Integrator::ImplicitEuler,
     time_step: 1e-3,
     local_error: None,
@@ -24,7 +24,7 @@ const EULER: Settings = Settings {
 };
 
 /// A rod that begins in some frame, free, under a gravity.
-fn free(rod: Rod, base: Pose, gravity: Vec3) -> Problem {
+pub(super) fn free(rod: Rod, base: Pose, gravity: Vec3) -> Problem {
     let (mut description, elements) = (rod.description().clone(), rod.elements());
     description.base = base;
     let rod = Rod::with_elements(description, elements, &[], Order::Second).unwrap();
@@ -33,19 +33,19 @@ fn free(rod: Rod, base: Pose, gravity: Vec3) -> Problem {
 }
 
 /// A rod along z from a place on, held at both ends.
-fn held(rod: Rod, z: f64) -> Problem {
+pub(super) fn held(rod: Rod, z: f64) -> Problem {
     let base = Pose { position: Vec3::new(0.0, 0.0, z), ..Pose::IDENTITY };
     let (last, problem) = (rod.elements(), free(rod, base, Vec3::ZERO));
     let [a, b] = [0, last].map(|node| problem.rod.rest_poses()[node]);
     Problem { start: Support::clamped(a), end: Support::clamped(b), ..problem }
 }
 
-fn steel() -> Rod {
+pub(super) fn steel() -> Rod {
     let steel = Material::from_poisson(200e9, 0.3, 7850.0).unwrap();
     rod(0.1, RADIUS, steel, Kinematics::Cosserat, 10)
 }
 
-fn suture(elements: usize) -> Rod {
+pub(super) fn suture(elements: usize) -> Rod {
     let nylon = Material::from_poisson(750e6, 0.4, 1300.0).unwrap();
     rod(0.1, 0.2e-3, nylon, Kinematics::Cosserat, elements)
 }
@@ -69,7 +69,7 @@ fn a_rod_on_an_incline_sticks_or_slides_and_rolls() {
                 if sin <= 3.0 * friction * cos { [rolls, rolls] } else { [slides, 2.0 * friction * G * cos] };
             for (down, [expected, turned]) in [(Vec3::Z, along), (Vec3::Y, across)] {
                 let gravity = Vec3::X * (-G * cos) + down * (G * sin);
-                let base = Pose { position: Vec3::new(1.006 * RADIUS, 0.0, 0.0), ..Pose::IDENTITY };
+                let base = Pose { position: Vec3::new(1.016 * RADIUS, 0.0, 0.0), ..Pose::IDENTITY };
                 let assembly = on_floor(free(steel(), base, gravity), friction);
                 let mut simulation = Simulation::new(assembly, EULER, Start::Rest).unwrap();
                 for _ in 0..20 {
@@ -148,7 +148,7 @@ fn a_suture_that_falls_onto_a_floor_comes_to_rest_there() {
     assert!((borne - Vec3::X * weight).norm() < 1e-3 * weight, "{borne:?} of {weight:e}");
     // It rests on it, and not above.
     let highest = state.poses.iter().map(|pose| pose.position.x).fold(0.0, f64::max);
-    assert!(highest < 1.01 * 0.2e-3, "{highest:e}");
+    assert!(highest < 1.017 * 0.2e-3, "{highest:e}");
 }
 
 #[test]
@@ -161,6 +161,7 @@ fn a_rod_comes_to_rest_across_another_and_on_a_ball() {
     let ball = Obstacle {
         shape: Shape::Capsule { ends: [Vec3::new(0.0, 0.03, 0.003); 2], radius: 1e-3 },
         friction: Some(1.0),
+        body: None,
     };
     let assembly = Assembly {
         strands: vec![held.into(), falls.into()],
@@ -348,6 +349,7 @@ fn a_rod_rests_along_a_long_obstacle_and_in_a_valley_of_two() {
         let side = |y: f64| Obstacle {
             shape: Shape::Capsule { ends: [Vec3::new(0.0, y, -0.05), Vec3::new(0.0, y, 0.15)], radius: 2e-3 },
             friction: None,
+            body: None,
         };
         let assembly = Assembly {
             surfaces: Some(Surfaces { friction: 0.3 }),
@@ -359,9 +361,10 @@ fn a_rod_rests_along_a_long_obstacle_and_in_a_valley_of_two() {
             simulation.step().unwrap_or_else(|failure| panic!("{degrees}°, step {step}: {failure}"));
         }
         let lies = simulation.state().poses[5].position;
-        let height = (3e-3_f64.powi(2) - 2e-3_f64.powi(2)).sqrt();
+        // Surfaces rest 0.016 radii apart.
+        let height = ((3e-3 + 0.016 * RADIUS).powi(2) - 2e-3_f64.powi(2)).sqrt();
         assert!(
-            (lies.x - height).abs() < 0.02 * RADIUS && lies.y.abs() < 0.02 * RADIUS,
+            (lies.x - height).abs() < 0.01 * RADIUS && lies.y.abs() < 1e-3 * RADIUS,
             "{degrees}°: {lies:?}"
         );
     }

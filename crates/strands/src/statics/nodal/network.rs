@@ -18,8 +18,9 @@ use crate::assembly::{Assembly, Body, Member, Ties};
 use crate::math::{Kernel, Pose, SimdLevel, Vec3, Vec6, Wrench, dispatch, larger};
 use crate::statics::Support;
 use crate::statics::boundary::{displacements, displacements_slope};
+use core::cmp::Reverse;
 use core::ops::Range;
-use std::collections::BTreeSet;
+use std::collections::BinaryHeap;
 
 const NONE: Square<f64> = [[0.0; 6]; 6];
 const IDENTITY: Square<f64> = {
@@ -70,6 +71,10 @@ pub(crate) struct Network {
     hanging: Vec<(usize, usize, usize)>,
     /// Of each frame, where it is in that list.
     hangs: Vec<Option<usize>>,
+    /// The unknowns that stand in each other's equations, of frames that touch the later ones, and the unknown at each place in the order.
+    edges: Vec<[usize; 2]>,
+    own_edges: usize,
+    unknown_at: Vec<usize>,
     structure: Structure,
     diagonal: Vec<Square<f64>>,
     upper: Vec<Square<f64>>,
@@ -88,84 +93,106 @@ pub(crate) struct Network {
 /// Which unknown follows from which.
 #[derive(Clone, Debug, Default)]
 struct Structure {
-    /// The unknowns after each that stand in its equations when it is its turn, and the number of the block.
-    after: Vec<Vec<(usize, usize)>>,
-    /// For each unknown and each two of those, where their block is: the number of the first row's block against the second's column.
-    pairs: Vec<Vec<(usize, usize, usize)>>,
+    /// The unknowns after each that stand in its equations when it is its turn: where those of one begin in the list of all. The block of the two has the same number.
+    begins: Vec<usize>,
+    after: Vec<usize>,
+    /// The same for each two of those, by their places in the list, and where the block of the first's row and the second's column is.
+    pair_begins: Vec<usize>,
+    pairs: Vec<[usize; 3]>,
 }
 
 impl Structure {
-    /// From the pairs of unknowns that stand in each other's equations. Gives also the place of each unknown in the order.
-    fn new(unknowns: usize, edges: &BTreeSet<(usize, usize)>) -> (Self, Vec<usize>) {
-        let mut beside = vec![BTreeSet::new(); unknowns];
-        for &(a, b) in edges {
-            beside[a].insert(b);
-            beside[b].insert(a);
-        }
-        let mut waiting: BTreeSet<(usize, usize)> =
-            beside.iter().enumerate().map(|(unknown, beside)| (beside.len(), unknown)).collect();
-        let (mut order, mut after) = (Vec::with_capacity(unknowns), Vec::with_capacity(unknowns));
-        while let Some((_, unknown)) = waiting.pop_first() {
-            let left: Vec<usize> = core::mem::take(&mut beside[unknown]).into_iter().collect();
-            for &a in &left {
-                waiting.remove(&(beside[a].len(), a));
-                beside[a].remove(&unknown);
-                beside[a].extend(left.iter().filter(|b| **b != a));
-                waiting.insert((beside[a].len(), a));
+    /// From the pairs of unknowns that stand in each other's equations, each once and both ways. Gives also the place of each unknown in the order.
+    fn new(unknowns: usize, edges: &[[usize; 2]]) -> (Self, Vec<usize>) {
+        let mut beside: Vec<Vec<usize>> = vec![Vec::new(); unknowns];
+        edges.iter().for_each(|[a, b]| beside[*a].push(*b));
+        let mut waiting: BinaryHeap<Reverse<(usize, usize)>> =
+            beside.iter().enumerate().map(|(unknown, beside)| Reverse((beside.len(), unknown))).collect();
+        let mut place = vec![usize::MAX; unknowns];
+        let mut order = Vec::with_capacity(unknowns);
+        let mut joined = Vec::new();
+        while let Some(Reverse((degree, unknown))) = waiting.pop() {
+            if place[unknown] != usize::MAX || degree != beside[unknown].len() {
+                continue;
             }
+            place[unknown] = order.len();
             order.push(unknown);
-            after.push(left);
-        }
-        let mut place = vec![0; unknowns];
-        order.iter().enumerate().for_each(|(i, unknown)| place[*unknown] = i);
-        let mut blocks = 0;
-        let after: Vec<Vec<(usize, usize)>> = after
-            .iter()
-            .map(|after| {
-                let mut after: Vec<usize> = after.iter().map(|unknown| place[*unknown]).collect();
-                after.sort_unstable();
-                let numbered =
-                    after.into_iter().enumerate().map(|(k, at)| (at, blocks + k)).collect::<Vec<_>>();
-                blocks += numbered.len();
-                numbered
-            })
-            .collect();
-        let mut structure = Self { after, pairs: Vec::new() };
-        structure.pairs = (structure.after.iter())
-            .map(|after| {
-                let mut pairs = Vec::with_capacity(after.len() * after.len());
-                for (i, (row, _)) in after.iter().enumerate() {
-                    for (j, (column, _)) in after.iter().enumerate().filter(|(j, _)| *j != i) {
-                        pairs.push((i, j, structure.block(*row.min(column), *row.max(column))));
+            let left = core::mem::take(&mut beside[unknown]);
+            for &a in &left {
+                joined.clear();
+                merge(&beside[a], &left, |b| {
+                    if b != a && b != unknown {
+                        joined.push(b);
                     }
+                });
+                beside[a].clone_from(&joined);
+                waiting.push(Reverse((joined.len(), a)));
+            }
+            beside[unknown] = left;
+        }
+        let mut structure = Self::default();
+        for unknown in &order {
+            structure.begins.push(structure.after.len());
+            let begin = structure.after.len();
+            structure.after.extend(beside[*unknown].iter().map(|unknown| place[*unknown]));
+            structure.after[begin..].sort_unstable();
+        }
+        structure.begins.push(structure.after.len());
+        for p in 0..unknowns {
+            structure.pair_begins.push(structure.pairs.len());
+            let of = structure.range(p);
+            for i in of.clone() {
+                // All that come after this one stand in its row too.
+                let row = structure.range(structure.after[i]);
+                let mut at = row.start;
+                for j in i + 1..of.end {
+                    while structure.after[at] != structure.after[j] {
+                        at += 1;
+                    }
+                    structure.pairs.push([i, j, at]);
                 }
-                pairs
-            })
-            .collect();
+            }
+        }
+        structure.pair_begins.push(structure.pairs.len());
         (structure, place)
     }
 
-    /// The number of the block of two unknowns.
-    fn block(&self, first: usize, second: usize) -> usize {
-        let after = &self.after[first];
-        let at = after.binary_search_by_key(&second, |(at, _)| *at);
-        after[at.unwrap_or_else(|_| unreachable!("every pair that is added was foreseen"))].1
+    /// Where in the list the unknowns after one are.
+    fn range(&self, unknown: usize) -> Range<usize> {
+        self.begins[unknown]..self.begins[unknown + 1]
     }
 
-    fn blocks(&self) -> usize {
-        self.after.iter().map(Vec::len).sum()
+    /// The number of the block of two unknowns, if there is one.
+    fn find(&self, first: usize, second: usize) -> Option<usize> {
+        let range = self.range(first);
+        let at = self.after[range.clone()].binary_search(&second).ok()?;
+        Some(range.start + at)
+    }
+
+    fn block(&self, first: usize, second: usize) -> usize {
+        let block = self.find(first, second);
+        block.unwrap_or_else(|| unreachable!("every pair that is added was foreseen"))
+    }
+}
+
+/// All numbers of two sorted lists, each once.
+fn merge(a: &[usize], b: &[usize], mut take: impl FnMut(usize)) {
+    let (mut i, mut j) = (0, 0);
+    while i < a.len() || j < b.len() {
+        let next = match (a.get(i), b.get(j)) {
+            (Some(a), Some(b)) => *a.min(b),
+            (Some(a), None) | (None, Some(a)) => *a,
+            (None, None) => return,
+        };
+        i += usize::from(a.get(i) == Some(&next));
+        j += usize::from(b.get(j) == Some(&next));
+        take(next);
     }
 }
 
 impl Network {
-    /// The system of some rods and bodies of an assembly, of all that they are tied to, in which frames may touch each other.
-    pub fn new(
-        assembly: &Assembly,
-        ties: &Ties,
-        rods: &[usize],
-        bodies: &[usize],
-        touching: impl Iterator<Item = [Option<usize>; 4]>,
-    ) -> Self {
+    /// The system of some rods and bodies of an assembly, of all that they are tied to.
+    pub fn new(assembly: &Assembly, ties: &Ties, rods: &[usize], bodies: &[usize]) -> Self {
         let mut network = Self::default();
         for &rod in rods {
             network.rods.push((rod, network.frames.len()));
@@ -200,44 +227,88 @@ impl Network {
                 unknowns += 1;
             }
         }
-        let mut edges = BTreeSet::new();
-        let mut join = |a: &[usize], b: &[usize]| {
-            for (a, b) in a.iter().flat_map(|a| b.iter().map(move |b| (*a, *b))) {
-                if a != b {
-                    edges.insert((a.min(b), a.max(b)));
-                }
-            }
-        };
-        for (i, own) in of.iter().enumerate() {
-            join(own, own);
+        network.number = number;
+        for own in &of {
+            let first = network.terms.len();
+            let term = |at: &usize| Term { unknown: *at, motions: IDENTITY, whole: true };
+            network.terms.extend(own.iter().map(term));
+            network.terms_of.push(first..network.terms.len());
+        }
+        for i in 0..network.frames.len() {
+            network.join(i, i);
             let is_last = network.rods.iter().any(|(_, first)| *first == i + 1);
             if i + 1 < network.first_body && !is_last {
-                join(own, &of[i + 1]);
+                network.join(i, i + 1);
             }
         }
+        network.own_edges = network.edges.len();
+        network.right = vec![[0.0; 6]; unknowns];
+        network.diagonal = vec![NONE; unknowns];
+        network.put_in_order();
+        network
+    }
+
+    /// Makes it one in which frames touch each other too, by the assembly's numbers.
+    pub fn tie(&mut self, touching: &[[Option<usize>; 4]]) {
+        self.edges.truncate(self.own_edges);
         for frames in touching {
             for (k, a) in frames.iter().enumerate() {
                 for b in &frames[..k] {
                     if let (Some(a), Some(b)) = (a, b) {
-                        join(&of[number[*a]], &of[number[*b]]);
+                        self.join(self.number[*a], self.number[*b]);
                     }
                 }
             }
         }
-        let (structure, place) = Structure::new(unknowns, &edges);
-        network.number = number;
-        for own in &of {
-            let first = network.terms.len();
-            let term = |at: &usize| Term { unknown: place[*at], motions: IDENTITY, whole: true };
-            network.terms.extend(own.iter().map(term));
-            network.terms_of.push(first..network.terms.len());
+        self.put_in_order();
+    }
+
+    /// Whether frames that touch each other, by the assembly's numbers, are joined in it.
+    pub fn joins(&self, frames: &[Option<usize>; 4]) -> bool {
+        let unknowns = |frame: &usize| {
+            let own = &self.terms[self.terms_of[self.number[*frame]].clone()];
+            own.iter().map(|term| term.unknown)
+        };
+        let mut each = frames.iter().flatten();
+        core::iter::from_fn(|| each.next().map(|a| (a, each.clone()))).all(|(a, others)| {
+            others
+                .flat_map(unknowns)
+                .all(|b| unknowns(a).all(|a| a == b || self.structure.find(a.min(b), a.max(b)).is_some()))
+        })
+    }
+
+    /// Says that the unknowns of two frames stand in each other's equations.
+    fn join(&mut self, a: usize, b: usize) {
+        let (first, second) = (self.terms_of[a].clone(), self.terms_of[b].clone());
+        let unplaced = |network: &Self, term: usize| network.unplaced(network.terms[term].unknown);
+        for (a, b) in first.flat_map(|a| second.clone().map(move |b| (a, b))) {
+            let (a, b) = (unplaced(self, a), unplaced(self, b));
+            if a != b {
+                self.edges.push([a, b]);
+                self.edges.push([b, a]);
+            }
         }
-        network.diagonal = vec![NONE; unknowns];
-        network.right = vec![[0.0; 6]; unknowns];
-        network.upper = vec![NONE; structure.blocks()];
-        network.lower = vec![NONE; structure.blocks()];
-        network.structure = structure;
-        network
+    }
+
+    /// The unknown that has a place in the order.
+    fn unplaced(&self, place: usize) -> usize {
+        self.unknown_at.get(place).copied().unwrap_or(place)
+    }
+
+    /// Finds an order in which the unknowns are eliminated.
+    fn put_in_order(&mut self) {
+        let mut edges = self.edges.clone();
+        edges.sort_unstable();
+        edges.dedup();
+        let (structure, place) = Structure::new(self.right.len(), &edges);
+        for term in &mut self.terms {
+            term.unknown = place[self.unknown_at.get(term.unknown).copied().unwrap_or(term.unknown)];
+        }
+        self.unknown_at.resize(place.len(), 0);
+        place.iter().enumerate().for_each(|(unknown, at)| self.unknown_at[*at] = unknown);
+        self.upper.resize(structure.after.len(), NONE);
+        self.lower.resize(structure.after.len(), NONE);
+        self.structure = structure;
     }
 
     /// The axes in which all its rods are to be linearised.
@@ -292,12 +363,16 @@ impl Network {
         for (at, nodal) in nodals.enumerate() {
             self.add_rod(assembly, at, nodal);
         }
+        // A body that only touches rods is out of balance beside the softest of them.
+        let own = |(rod, _): &(usize, usize)| assembly.strands[*rod].problem.rod.scale().force;
+        let softest = self.rods.iter().map(own).fold(f64::INFINITY, f64::min) / self.axes.force;
+        let softest = if softest.is_finite() { softest } else { 0.0 };
         for body in 0..self.bodies.len() {
             let frame = self.first_body + body;
             let FreeFrame { load, resists, unsure, .. } = self.free[body];
             self.add_block(frame, frame, &resists);
             self.add_right(frame, load);
-            self.weigh_unknowns(frame, load, unsure);
+            self.weigh_unknowns(frame, load, unsure.max(softest));
         }
         for touch in touches {
             self.add_touch(&touch);
@@ -599,28 +674,29 @@ impl Kernel for EliminateNetwork<'_> {
                 x.map(|[x]| x)
             };
             right[p] = x;
-            let after = &structure.after[p];
-            for (_, block) in after {
-                reduce(&pivot, &scales, &mut upper[*block]);
+            let after = structure.range(p);
+            for block in after.clone() {
+                reduce(&pivot, &scales, &mut upper[block]);
             }
-            for (q, block) in after {
-                let lower = lower[*block];
-                for (row, right) in lower.iter().zip(&mut right[*q]) {
+            for block in after {
+                let q = structure.after[block];
+                for (row, right) in lower[block].iter().zip(&mut right[q]) {
                     *right -= dot(row, &x);
                 }
-                subtract(&mut diagonal[*q], &product(&lower, &upper[*block]));
+                subtract(&mut diagonal[q], &product(&lower[block], &upper[block]));
             }
-            for &(i, j, target) in &structure.pairs[p] {
-                let ((row, from), (column, to)) = (after[i], after[j]);
-                let taken = product(&lower[from], &upper[to]);
-                subtract(if row < column { &mut upper[target] } else { &mut lower[target] }, &taken);
+            for &[i, j, target] in &structure.pairs[structure.pair_begins[p]..structure.pair_begins[p + 1]] {
+                let taken = product(&lower[i], &upper[j]);
+                subtract(&mut upper[target], &taken);
+                let taken = product(&lower[j], &upper[i]);
+                subtract(&mut lower[target], &taken);
             }
         }
         for p in (0..diagonal.len()).rev() {
             let mut x = right[p];
-            for (q, block) in &structure.after[p] {
-                for (x, row) in x.iter_mut().zip(&upper[*block]) {
-                    *x -= dot(row, &right[*q]);
+            for block in structure.range(p) {
+                for (x, row) in x.iter_mut().zip(&upper[block]) {
+                    *x -= dot(row, &right[structure.after[block]]);
                 }
             }
             right[p] = x;

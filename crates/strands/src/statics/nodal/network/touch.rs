@@ -14,6 +14,8 @@ pub(crate) struct Touch {
     pub stiffness: Mat3,
     /// How the force of each end resists a shift of each other, N/m, where the normal turns with them.
     pub bends: Option<[[Mat3; 4]; 4]>,
+    /// How the moment of that force resists them, N.
+    pub turns: Option<[[Mat3; 4]; 4]>,
 }
 
 /// An end of a segment.
@@ -46,6 +48,9 @@ impl Network {
                 if let Some(bends) = &touch.bends {
                     add_between_places(&mut block, place, &bends[k][l].scaled(per_shift), axes.at(of.place));
                 }
+                if let Some(turns) = &touch.turns {
+                    add_couple(&mut block, &turns[k][l].scaled(axes.length / axes.moment), axes.at(of.place));
+                }
                 self.add_block(row, self.number[of.frame], &block);
             }
         }
@@ -69,6 +74,18 @@ fn add_between_places(block: &mut Square<f64>, on: Vec3, stiffness: &Mat3, of: V
     for (c, force) in columns.enumerate() {
         let moment = on.cross(force);
         for (row, x) in block.iter_mut().zip([moment.x, moment.y, moment.z, force.x, force.y, force.z]) {
+            row[c] += x;
+        }
+    }
+}
+
+/// Adds how a moment resists shifts of a place.
+#[inline]
+fn add_couple(block: &mut Square<f64>, stiffness: &Mat3, of: Vec3) {
+    let by_turn = *stiffness * Mat3::hat(of);
+    let columns = by_turn.cols.map(|column| column * -1.0).into_iter().chain(stiffness.cols);
+    for (c, moment) in columns.enumerate() {
+        for (row, x) in block.iter_mut().zip([moment.x, moment.y, moment.z]) {
             row[c] += x;
         }
     }
