@@ -14,7 +14,7 @@ mod obstacle;
 mod tree;
 
 pub(crate) use aabb::Aabb;
-pub(crate) use distance::Ends;
+pub(crate) use distance::{Ends, Nearest};
 pub(crate) use law::{Law, Multipliers, Response};
 pub(crate) use meeting::{Kind, Meeting};
 pub use mesh::{Mesh, MeshError};

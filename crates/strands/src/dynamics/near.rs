@@ -2,7 +2,7 @@
 
 use super::pair::Pair;
 use crate::assembly::{Assembly, Member};
-use crate::contact::{Aabb, Ends, Kind, Part, Toucher, Tree};
+use crate::contact::{Aabb, Ends, Kind, Nearest, Part, Toucher, Tree};
 use crate::math::{Pose, Vec3};
 
 /// Frames may be so many radii from where they were.
@@ -98,6 +98,8 @@ pub(super) struct Neighbours {
     boxes: Vec<Aabb>,
     /// The pieces' middles, and how far from there they go, m.
     middles: Vec<(Vec3, f64)>,
+    /// How far at most they go, m.
+    shifts: Vec<f64>,
 }
 
 impl Neighbours {
@@ -293,6 +295,13 @@ impl Neighbours {
                     if apart.dot(apart) > range * range {
                         continue;
                     }
+                    // No node of one is nearer to the other.
+                    let [[a, b], [c, d]] = [piece, other].map(|of| of.frames().map(|i| poses[i].position));
+                    let apart = Nearest::of(&[a, b, c, d]).apart;
+                    let range = (1.0 + RANGE) * piece.radius + other.radius;
+                    if apart.dot(apart) > range * range {
+                        continue;
+                    }
                     near.met = true;
                     piece.pairs_with(other, |of| pair(of, [Some(piece.rod), Some(other.rod)], None));
                 }
@@ -316,18 +325,22 @@ impl Neighbours {
     /// What part of the way from some frames to others surfaces allow, where it is known what may touch.
     pub fn free_part(&mut self, from: &[Pose], to: &[Pose]) -> f64 {
         self.take_middles(from);
-        let Self { pieces, walls, near, middles, .. } = self;
-        let shift = |piece: &Piece| {
-            piece.frames().map(|i| (to[i].position - from[i].position).norm()).into_iter().fold(0.0, f64::max)
-        };
+        let Self { pieces, walls, near, middles, shifts, .. } = self;
+        shifts.clear();
+        shifts.extend(pieces.iter().map(|piece| {
+            let [a, b] = piece.frames().map(|i| to[i].position - from[i].position);
+            a.dot(a).max(b.dot(b)).sqrt()
+        }));
         let mut part = 1.0_f64;
         for near in near.iter() {
             let piece = &pieces[near.piece as usize];
             let (middle, half) = middles[near.piece as usize];
+            let shift = shifts[near.piece as usize];
             match near.other {
                 Other::Piece(other) => {
+                    let other_shift = shifts[other as usize];
                     let (other, (to_middle, far)) = (&pieces[other as usize], middles[other as usize]);
-                    let range = half + far + piece.radius + other.radius + shift(piece) + shift(other);
+                    let range = half + far + piece.radius + other.radius + shift + other_shift;
                     let apart = middle - to_middle;
                     if apart.dot(apart) > range * range {
                         continue;
@@ -338,7 +351,7 @@ impl Neighbours {
                 Other::Wall(wall) => {
                     let wall = &walls[wall as usize];
                     let still = wall.frame.is_none();
-                    if still && wall.distance(middle, from) > half + piece.radius + shift(piece) {
+                    if still && wall.distance(middle, from) > half + piece.radius + shift {
                         continue;
                     }
                     piece.pairs_with_wall(wall, |pair| part = part.min(pair.free_part(from, to)));

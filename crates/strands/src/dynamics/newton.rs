@@ -279,6 +279,7 @@ impl Group {
                 self.rods.iter().map(|system| &system.nodal),
                 poses,
                 contacts.touches(),
+                level,
             ),
         )
     }

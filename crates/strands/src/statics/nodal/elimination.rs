@@ -255,6 +255,7 @@ fn crossed<R: Real>(arm: &Vec3<R>, x: R, y: R, z: R) -> [R; 3] {
 }
 
 /// A block that resists a variation seen from some place, for that seen from a place `arm` further on.
+#[inline(always)]
 pub(super) fn block_from(arm: &Vec3, block: &Square<f64>) -> Square<f64> {
     let (mut moved, mut none) = (*block, [[0.0; 8]; 6]);
     see_from(arm, &mut moved, &mut none);

@@ -33,6 +33,39 @@ const IDENTITY: Square<f64> = {
     identity
 };
 
+/// Six rows of a block, each as wide as a register.
+#[repr(align(64))]
+#[derive(Clone, Copy, Debug)]
+struct Wide([[f64; 8]; 6]);
+
+impl Wide {
+    const NONE: Self = Self([[0.0; 8]; 6]);
+
+    #[inline(always)]
+    fn add(&mut self, block: &Square<f64>) {
+        for (row, block) in self.0.iter_mut().zip(block) {
+            row.iter_mut().zip(block).for_each(|(x, block)| *x += block);
+        }
+    }
+
+    /// Subtracts the product of two.
+    #[inline(always)]
+    fn subtract_product(&mut self, a: &Self, b: &Self) {
+        for (row, a) in self.0.iter_mut().zip(&a.0) {
+            for (c, x) in row.iter_mut().enumerate() {
+                let term = |k: usize| b.0[k][c] * a[k];
+                *x -= (term(0) + term(1)) + (term(2) + term(3)) + (term(4) + term(5));
+            }
+        }
+    }
+
+    /// Its six columns.
+    #[inline(always)]
+    fn square(&self) -> Square<f64> {
+        self.0.map(|[a, b, c, d, e, f, ..]| [a, b, c, d, e, f])
+    }
+}
+
 /// Where a body is, and what acts on it beside joints, in the network's axes; what the rods' [`Nodal`] is for their nodes.
 #[derive(Clone, Copy, Debug)]
 struct FreeFrame {
@@ -76,9 +109,11 @@ pub(crate) struct Network {
     own_edges: usize,
     unknown_at: Vec<usize>,
     structure: Structure,
-    diagonal: Vec<Square<f64>>,
-    upper: Vec<Square<f64>>,
-    lower: Vec<Square<f64>>,
+    diagonal: Vec<Wide>,
+    upper: Vec<Wide>,
+    lower: Vec<Wide>,
+    /// Of each unknown, the factors of its pivot and the inverses of what stands on their diagonal.
+    pivots: Vec<(Square<f64>, [f64; 6])>,
     right: Vec<[f64; 6]>,
     /// What each frame is out of balance by, with all that hangs from it.
     borne: Vec<Wrench>,
@@ -243,7 +278,7 @@ impl Network {
         }
         network.own_edges = network.edges.len();
         network.right = vec![[0.0; 6]; unknowns];
-        network.diagonal = vec![NONE; unknowns];
+        network.diagonal = vec![Wide::NONE; unknowns];
         network.put_in_order();
         network
     }
@@ -306,8 +341,8 @@ impl Network {
         }
         self.unknown_at.resize(place.len(), 0);
         place.iter().enumerate().for_each(|(unknown, at)| self.unknown_at[*at] = unknown);
-        self.upper.resize(structure.after.len(), NONE);
-        self.lower.resize(structure.after.len(), NONE);
+        self.upper.resize(structure.after.len(), Wide::NONE);
+        self.lower.resize(structure.after.len(), Wide::NONE);
         self.structure = structure;
     }
 
@@ -353,15 +388,21 @@ impl Network {
         nodals: impl Iterator<Item = &'a Nodal> + Clone,
         poses: &[Pose],
         touches: impl Iterator<Item = Touch>,
+        level: SimdLevel,
     ) -> f64 {
-        for blocks in [&mut self.diagonal, &mut self.upper, &mut self.lower] {
-            blocks.fill(NONE);
-        }
         self.right.fill([0.0; 6]);
+        self.imbalance.clear();
+        self.imbalance.resize(self.right.len(), [0.0; 6]);
+        self.scale.clear();
+        self.scale.resize(self.right.len(), f64::MIN_POSITIVE);
         self.weigh(nodals.clone());
+        for blocks in [&mut self.diagonal, &mut self.upper, &mut self.lower] {
+            blocks.fill(Wide::NONE);
+        }
         self.take_motions(assembly, ties, poses);
         for (at, nodal) in nodals.enumerate() {
-            self.add_rod(assembly, at, nodal);
+            dispatch(level, AddRod { network: self, at, nodal });
+            self.load_rod(assembly, at, nodal);
         }
         // A body that only touches rods is out of balance beside the softest of them.
         let own = |(rod, _): &(usize, usize)| assembly.strands[*rod].problem.rod.scale().force;
@@ -384,8 +425,9 @@ impl Network {
         self.imbalance.iter().zip(&self.scale).map(out).fold(0.0, larger)
     }
 
-    fn add_rod(&mut self, assembly: &Assembly, at: usize, nodal: &Nodal) {
-        let (rod, first) = self.rods[at];
+    #[inline(always)]
+    fn add_rod(&mut self, at: usize, nodal: &Nodal) {
+        let (_, first) = self.rods[at];
         let mut slopes = nodal.load_slopes.iter().peekable();
         for node in 0..=nodal.links.len() {
             let frame = first + node;
@@ -415,12 +457,17 @@ impl Network {
                 self.add_block(frame + 1, frame, &negative(&lower));
             }
             self.add_block(frame, frame, &block);
-            self.add_right(frame, nodal.acting(node).wrench_from(nodal.places[node]));
         }
+    }
+
+    /// Takes what acts on a rod's nodes.
+    fn load_rod(&mut self, assembly: &Assembly, at: usize, nodal: &Nodal) {
+        let (rod, first) = self.rods[at];
         // In the rod's own units: a thick trunk's round-off is not a twig's imbalance.
         let own = assembly.strands[rod].problem.rod.scale().force / self.axes.force;
         let carried = nodal.links.iter().fold(own, |max: f64, link| max.max(link.carried.max_abs()));
         for node in 0..=nodal.links.len() {
+            self.add_right(first + node, nodal.acting(node).wrench_from(nodal.places[node]));
             self.weigh_unknowns(first + node, nodal.imbalance(node).wrench_from(nodal.places[node]), carried);
         }
     }
@@ -442,10 +489,6 @@ impl Network {
     /// The motions that the unknowns stand for.
     fn take_motions(&mut self, assembly: &Assembly, ties: &Ties, poses: &[Pose]) {
         self.abouts.resize(self.right.len(), Vec3::ZERO);
-        self.imbalance.clear();
-        self.imbalance.resize(self.right.len(), [0.0; 6]);
-        self.scale.clear();
-        self.scale.resize(self.right.len(), f64::MIN_POSITIVE);
         for i in (0..self.frames.len()).filter(|i| self.hangs[*i].is_none()) {
             let term = &mut self.terms[self.terms_of[i].start];
             let pose = self.axes.frame(&poses[self.frames[i]]);
@@ -474,6 +517,7 @@ impl Network {
     }
 
     /// Adds `Tᵀ K T`, where `K` says how what acts on one frame resists the variation of another.
+    #[inline(always)]
     fn add_block(&mut self, row: usize, column: usize, block: &Square<f64>) {
         let (rows, columns) = (self.terms_of[row].clone(), self.terms_of[column].clone());
         for r in rows {
@@ -481,17 +525,18 @@ impl Network {
                 let (row, column) = (&self.terms[r], &self.terms[c]);
                 let (at, to) = (row.unknown, column.unknown);
                 if row.whole && column.whole {
-                    add(self.block_mut(at, to), block);
+                    self.block_mut(at, to).add(block);
                     continue;
                 }
                 let right = if column.whole { *block } else { product(block, &column.motions) };
                 let whole = if row.whole { right } else { product(&transposed(&row.motions), &right) };
-                add(self.block_mut(at, to), &whole);
+                self.block_mut(at, to).add(&whole);
             }
         }
     }
 
-    fn block_mut(&mut self, row: usize, column: usize) -> &mut Square<f64> {
+    #[inline(always)]
+    fn block_mut(&mut self, row: usize, column: usize) -> &mut Wide {
         match row.cmp(&column) {
             core::cmp::Ordering::Equal => &mut self.diagonal[row],
             core::cmp::Ordering::Less => &mut self.upper[self.structure.block(row, column)],
@@ -499,6 +544,7 @@ impl Network {
         }
     }
 
+    #[inline(always)]
     fn add_right(&mut self, frame: usize, acts: Wrench) {
         let acts = parts(acts);
         for Term { unknown, motions, .. } in &self.terms[self.terms_of[frame].clone()] {
@@ -542,9 +588,9 @@ impl Network {
             let pose = self.axes.frame(&poses[self.frames[i]]);
             let curved = displacements_slope(support, &pose, self.borne[i]).to_rows();
             let block = &mut self.diagonal[own.unknown];
-            add(block, &curved);
+            block.add(&curved);
             for (k, fixed) in support.fixed.iter().enumerate() {
-                block[k][k] += f64::from(*fixed);
+                block.0[k][k] += f64::from(*fixed);
             }
         }
     }
@@ -557,7 +603,7 @@ impl Network {
         for (k, row) in slope.iter_mut().enumerate() {
             let motion = Vec6::from(motions[k]);
             if motion == Vec6::ZERO {
-                self.diagonal[own.unknown][k][k] += 1.0;
+                self.diagonal[own.unknown].0[k][k] += 1.0;
                 continue;
             }
             let by_turn = motion.angular.cross(borne.angular) + motion.linear.cross(borne.linear);
@@ -566,7 +612,7 @@ impl Network {
         for term in self.terms_of[parent].clone() {
             let Term { unknown, motions, .. } = self.terms[term];
             let block = product(&slope, &motions);
-            add(self.block_mut(own.unknown, unknown), &block);
+            self.block_mut(own.unknown, unknown).add(&block);
         }
     }
 
@@ -577,6 +623,12 @@ impl Network {
         nodals: impl Iterator<Item = &'a mut Nodal>,
     ) -> Option<usize> {
         let (negative, vanished) = dispatch(level, EliminateNetwork { network: self });
+        self.give_steps(nodals);
+        (!vanished).then_some(negative)
+    }
+
+    /// Gives the rods and bodies their steps.
+    fn give_steps<'a>(&mut self, nodals: impl Iterator<Item = &'a mut Nodal>) {
         for (nodal, (_, first)) in nodals.zip(&self.rods) {
             nodal.steps.clear();
             let steps = nodal.places.iter().enumerate();
@@ -585,7 +637,6 @@ impl Network {
         let bodies = self.free.iter().enumerate();
         self.free_steps =
             bodies.map(|(body, free)| self.variation(self.first_body + body, &free.place)).collect();
-        (!vanished).then_some(negative)
     }
 
     /// How a frame at a place turns and shifts.
@@ -641,6 +692,23 @@ fn held(assembly: &Assembly, member: Member) -> Option<&Support> {
     assembly.support(member).filter(|support| support.fixed.contains(&true))
 }
 
+/// Adds a rod's system.
+struct AddRod<'a> {
+    network: &'a mut Network,
+    at: usize,
+    nodal: &'a Nodal,
+}
+
+impl Kernel for AddRod<'_> {
+    type Output = ();
+
+    #[inline(always)]
+    fn run(self) {
+        self.network.add_rod(self.at, self.nodal);
+    }
+}
+
+#[inline(always)]
 fn negative(block: &Square<f64>) -> Square<f64> {
     block.map(|row| row.map(|x| -x))
 }
@@ -656,57 +724,75 @@ impl Kernel for EliminateNetwork<'_> {
 
     #[inline(always)]
     fn run(self) -> (usize, bool) {
-        let Network { structure, diagonal, upper, lower, right, .. } = self.network;
+        let Network { structure, diagonal, upper, lower, pivots, right, .. } = &mut *self.network;
+        pivots.clear();
         let (mut negative, mut vanished) = (0, false);
         for p in 0..diagonal.len() {
-            let mut pivot = diagonal[p];
+            let mut pivot = diagonal[p].square();
             let scales = factor(&mut pivot);
-            let size: f64 = (0..6).map(|k| diagonal[p][k][k].abs()).sum();
+            let size: f64 = (0..6).map(|k| diagonal[p].0[k][k].abs()).sum();
             for scale in scales {
                 negative += usize::from(scale <= 0.0);
                 // Not a number counts as vanished too.
                 let firm = (1.0 / scale).abs() > SMALLEST_PIVOT * size;
                 vanished |= !firm;
             }
-            let x = {
-                let mut x = right[p].map(|x| [x]);
-                reduce(&pivot, &scales, &mut x);
-                x.map(|[x]| x)
-            };
-            right[p] = x;
+            pivots.push((pivot, scales));
             let after = structure.range(p);
             for block in after.clone() {
-                reduce(&pivot, &scales, &mut upper[block]);
+                reduce(&pivot, &scales, &mut upper[block].0);
             }
+            // What the blocks of this one change stands behind them.
+            let end = after.end;
             for block in after {
                 let q = structure.after[block];
-                for (row, right) in lower[block].iter().zip(&mut right[q]) {
-                    *right -= dot(row, &x);
-                }
-                subtract(&mut diagonal[q], &product(&lower[block], &upper[block]));
+                diagonal[q].subtract_product(&lower[block], &upper[block]);
             }
+            let (upper, upper_later) = upper.split_at_mut(end);
+            let (lower, lower_later) = lower.split_at_mut(end);
             for &[i, j, target] in &structure.pairs[structure.pair_begins[p]..structure.pair_begins[p + 1]] {
-                let taken = product(&lower[i], &upper[j]);
-                subtract(&mut upper[target], &taken);
-                let taken = product(&lower[j], &upper[i]);
-                subtract(&mut lower[target], &taken);
+                upper_later[target - end].subtract_product(&lower[i], &upper[j]);
+                lower_later[target - end].subtract_product(&lower[j], &upper[i]);
             }
         }
-        for p in (0..diagonal.len()).rev() {
-            let mut x = right[p];
-            for block in structure.range(p) {
-                for (x, row) in x.iter_mut().zip(&upper[block]) {
-                    *x -= dot(row, &right[structure.after[block]]);
-                }
-            }
-            right[p] = x;
-        }
+        substitute(structure, pivots, upper, lower, right);
         (negative, vanished)
     }
 }
 
+/// Puts the solution together in the right-hand sides.
 #[inline(always)]
-fn dot(a: &[f64; 6], b: &[f64; 6]) -> f64 {
+fn substitute(
+    structure: &Structure,
+    pivots: &[(Square<f64>, [f64; 6])],
+    upper: &[Wide],
+    lower: &[Wide],
+    right: &mut [[f64; 6]],
+) {
+    for (p, (pivot, scales)) in pivots.iter().enumerate() {
+        let mut x = right[p].map(|x| [x]);
+        reduce(pivot, scales, &mut x);
+        let x = x.map(|[x]| x);
+        right[p] = x;
+        for block in structure.range(p) {
+            for (row, right) in lower[block].0.iter().zip(&mut right[structure.after[block]]) {
+                *right -= dot(row, &x);
+            }
+        }
+    }
+    for p in (0..pivots.len()).rev() {
+        let mut x = right[p];
+        for block in structure.range(p) {
+            for (x, row) in x.iter_mut().zip(&upper[block].0) {
+                *x -= dot(row, &right[structure.after[block]]);
+            }
+        }
+        right[p] = x;
+    }
+}
+
+#[inline(always)]
+fn dot(a: &[f64; 8], b: &[f64; 6]) -> f64 {
     (a[0] * b[0] + a[1] * b[1]) + (a[2] * b[2] + a[3] * b[3]) + (a[4] * b[4] + a[5] * b[5])
 }
 
