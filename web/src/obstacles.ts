@@ -26,14 +26,17 @@ function turn(mesh: THREE.Object3D, along: THREE.Vector3): void {
 export class Obstacles {
   readonly group = new THREE.Group()
   #solid = new THREE.MeshStandardMaterial({ roughness: 0.75 })
-  #plane = new THREE.MeshStandardMaterial({ roughness: 0.9, side: THREE.DoubleSide, transparent: true, opacity: OPACITY.plane, depthWrite: false })
+  /** The ground's grid and shadows, which are as high as a level plane, are seen on it. */
+  #level = new THREE.MeshStandardMaterial({ roughness: 0.9, side: THREE.DoubleSide, transparent: true, opacity: OPACITY.plane, depthWrite: false })
+  /** And they are not seen through another one. */
+  #slope = new THREE.MeshStandardMaterial({ roughness: 0.9, side: THREE.DoubleSide, transparent: true, opacity: OPACITY.plane })
   #hollow = new THREE.MeshStandardMaterial({ roughness: 0.6, side: THREE.DoubleSide, transparent: true, opacity: OPACITY.hollow, depthWrite: false })
   #edge = new THREE.LineBasicMaterial({ transparent: true, opacity: OPACITY.edge, depthWrite: false })
 
   setTheme(dark: boolean): void {
     const { solid, plane, edge } = dark ? DARK : LIGHT
     for (const material of [this.#solid, this.#hollow]) material.color.set(solid)
-    this.#plane.color.set(plane)
+    for (const material of [this.#level, this.#slope]) material.color.set(plane)
     this.#edge.color.set(edge)
   }
 
@@ -51,10 +54,10 @@ export class Obstacles {
     switch (shape.kind) {
       case 'plane': {
         const normal = vector(shape.normal)
-        const mesh = new THREE.Mesh(new THREE.PlaneGeometry(WIDE * size, WIDE * size), this.#plane)
+        const mesh = new THREE.Mesh(new THREE.PlaneGeometry(WIDE * size, WIDE * size), isLevel(shape.normal) ? this.#level : this.#slope)
         mesh.position.copy(new THREE.Plane().setFromNormalAndCoplanarPoint(normal, vector(shape.point)).projectPoint(centre, mesh.position))
         turn(mesh, normal)
-        // The ground's grid and shadows are at the same height as a level plane, and seen on it.
+        // Before the ground, and before what else is seen through.
         mesh.renderOrder = -1
         mesh.receiveShadow = true
         return mesh
@@ -129,8 +132,13 @@ function bounds(shape: ObstacleShape): THREE.Box3 | null {
   }
 }
 
+/** Whether a plane has its free side up. */
+function isLevel(normal: Triple): boolean {
+  return normal[2] > 1 - 1e-6
+}
+
 /** How high the highest level plane is whose free side is up; null where there is none. */
 export function levelFloor(shapes: ObstacleShape[]): number | null {
-  const levels = shapes.flatMap((shape) => (shape.kind === 'plane' && shape.normal[2] > 1 - 1e-6 ? [shape.point[2]] : []))
+  const levels = shapes.flatMap((shape) => (shape.kind === 'plane' && isLevel(shape.normal) ? [shape.point[2]] : []))
   return levels.length ? Math.max(...levels) : null
 }
