@@ -22,20 +22,37 @@ interface Arrow {
 export interface Insets { left: number; right: number; top: number; bottom: number }
 
 const ARC = 1.5 * Math.PI
+/** How long the arrow of the greatest force is, and how thick a shaft, over the size of the scene. */
+export const LONGEST = 0.19
+export const THICK = 0.0026
+/** How long a head is, over the thickness of its shaft. */
+export const HEAD = 2.6 * 3
+
+/** What shows forces, or torques, is made of. */
+export function marked(kind: 'force' | 'torque'): THREE.MeshStandardMaterial {
+  return new THREE.MeshStandardMaterial({ color: COLOURS[kind], roughness: 0.5, emissive: COLOURS[kind], emissiveIntensity: 0.35 })
+}
+
+/** A shaft of unit length and radius, its foot at the origin and its axis z. */
+export function shaft(): THREE.BufferGeometry {
+  return new THREE.CylinderGeometry(1, 1, 1, 14).translate(0, 0.5, 0).rotateX(Math.PI / 2)
+}
+
+/** A head of unit radius about the origin, its axis z. */
+export function head(): THREE.BufferGeometry {
+  return new THREE.ConeGeometry(1, 2.6, 18).rotateX(Math.PI / 2)
+}
 
 function build(kind: 'force' | 'torque', labels: HTMLElement): Arrow {
-  const material = new THREE.MeshStandardMaterial({ color: COLOURS[kind], roughness: 0.5, emissive: COLOURS[kind], emissiveIntensity: 0.35 })
-  const shaft =
-    kind === 'force'
-      ? new THREE.Mesh(new THREE.CylinderGeometry(1, 1, 1, 14).translate(0, 0.5, 0).rotateX(Math.PI / 2), material)
-      : new THREE.Mesh(new THREE.TorusGeometry(1, 0.05, 10, 48, ARC), material)
-  const head = new THREE.Mesh(new THREE.ConeGeometry(1, 2.6, 18).rotateX(Math.PI / 2), material)
+  const material = marked(kind)
+  const body = new THREE.Mesh(kind === 'force' ? shaft() : new THREE.TorusGeometry(1, 0.05, 10, 48, ARC), material)
+  const tip = new THREE.Mesh(head(), material)
   const group = new THREE.Group()
-  group.add(shaft, head)
+  group.add(body, tip)
   const label = document.createElement('span')
   label.className = `label ${kind}`
   labels.append(label)
-  return { kind, group, shaft, head, label, tip: new THREE.Vector3() }
+  return { kind, group, shaft: body, head: tip, label, tip: new THREE.Vector3() }
 }
 
 export class Arrows {
@@ -59,7 +76,7 @@ export class Arrows {
       const direction = vectors[i].clone().normalize()
       arrow.group.position.copy(places[i < 2 ? 0 : 1])
       arrow.group.quaternion.setFromUnitVectors(new THREE.Vector3(0, 0, 1), direction)
-      if (arrow.kind === 'force') this.#straight(arrow, Math.max(0.19 * part, 0.05) * size, 0.0026 * size)
+      if (arrow.kind === 'force') this.#straight(arrow, Math.max(LONGEST * part, 0.05) * size, THICK * size)
       else this.#arc(arrow, (0.035 + 0.03 * part) * size)
       arrow.label.textContent = engineering(amount, arrow.kind === 'force' ? 'N' : 'N·m')
       arrow.group.updateMatrixWorld()
@@ -68,7 +85,7 @@ export class Arrows {
   }
 
   #straight(arrow: Arrow, length: number, thick: number): void {
-    const head = 2.6 * 3 * thick
+    const head = HEAD * thick
     arrow.shaft.scale.set(thick, thick, length - head)
     arrow.head.scale.setScalar(3 * thick)
     arrow.head.position.set(0, 0, length - head / 2)

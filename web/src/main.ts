@@ -122,6 +122,7 @@ function setUp(first: Shape): void {
     startIsHeld: rods.map((rod) => isHeld(rod, 'start', 0)),
     endIsHeld: rods.map((rod) => isHeld(rod, 'end', rod.length)),
     tied: first.report.moves_only,
+    touches: Boolean(scene.contact),
     surgical: String(scene.name ?? '').includes('suture'),
     skin: rods.length >= MANY && String(scene.name ?? '').includes('hair'),
   })

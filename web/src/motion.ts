@@ -3,7 +3,7 @@
  * keep up it gives time up, and never a frame.
  */
 
-import type { HandPose, Moved, MotionReport, MovingRod, RigidBody } from './protocol'
+import type { HandPose, Moved, MotionReport, MovingRod, ObstacleShape, RigidBody } from './protocol'
 import type { Solver } from './solver'
 import type { Scenery } from './stage'
 
@@ -29,6 +29,7 @@ export class Motion {
   speed = SPEEDS[0]
   #rods: MovingRod[] = []
   #bodies: RigidBody[] = []
+  #obstacles: ObstacleShape[] = []
   #busy = false
   /** When time was let pass last, ms. */
   #last = 0
@@ -63,6 +64,7 @@ export class Motion {
     if (reply.kind !== 'moving') return reply.kind === 'error' ? reply.message : 'The solver does not answer.'
     this.#rods = reply.rods
     this.#bodies = reply.bodies
+    this.#obstacles = reply.obstacles
     this.scenery = this.#scenery(reply.moved, Math.max(0, reply.rods.findIndex(({ name }) => name === held)))
     return this.scenery
   }
@@ -181,6 +183,6 @@ export class Motion {
       }
     })
     const bodies = { shapes: this.#bodies.map(({ shape }) => shape), frames: moved.bodies }
-    return { rods, bodies, held, report: moved.report }
+    return { rods, bodies, obstacles: this.#obstacles, contacts: moved.contacts, held, report: moved.report }
   }
 }

@@ -15,7 +15,8 @@ export class Mover {
   }
 
   start(): Reply {
-    return { kind: 'moving', rods: this.#rods(), bodies: JSON.parse(this.#motion.body_shapes()), moved: this.#moved() }
+    const [bodies, obstacles] = [this.#motion.body_shapes(), this.#motion.obstacles()].map((text) => JSON.parse(text))
+    return { kind: 'moving', rods: this.#rods(), bodies, obstacles, moved: this.#moved() }
   }
 
   /** Answers what only a scene in motion can; null where it is something else. */
@@ -59,6 +60,7 @@ export class Mover {
     return {
       frames: this.#motion.frames(),
       bodies: this.#motion.bodies(),
+      contacts: this.#motion.contacts(),
       strain: borne.subarray(0, 6 * elements),
       stress: borne.subarray(6 * elements, 12 * elements),
       energyDensity: borne.subarray(12 * elements),

@@ -83,6 +83,15 @@ export interface RigidBody {
   shape: BodyShape
 }
 
+export type Triple = [number, number, number]
+
+/** What an obstacle looks like: places and lengths, m. A tube is seen from within, a ball is a capsule whose ends are the same. */
+export type ObstacleShape =
+  | { kind: 'plane'; point: Triple; normal: Triple }
+  | { kind: 'capsule' | 'cylinder'; ends: [Triple, Triple]; radius: number }
+  | { kind: 'tube'; point: Triple; axis: Triple; radius: number }
+  | { kind: 'mesh'; corners: number[]; triangles: number[] }
+
 /** How a motion goes, as the solver reports it. */
 export interface MotionReport {
   /** s */
@@ -115,6 +124,8 @@ export interface Moved extends Carried {
   frames: Float64Array
   /** The frames of the rigid bodies. */
   bodies: Float64Array
+  /** What touches, nine numbers each: the point, the unit normal, the force, N. */
+  contacts: Float64Array
   report: MotionReport
 }
 
@@ -146,7 +157,7 @@ export type Reply =
   | { kind: 'opened'; scene: string; coupling: number[]; shape: Shape }
   | { kind: 'shape'; shape: Shape; scene: string | null; coupling: number[] }
   | { kind: 'error'; message: string }
-  | { kind: 'moving'; rods: MovingRod[]; bodies: RigidBody[]; moved: Moved }
+  | { kind: 'moving'; rods: MovingRod[]; bodies: RigidBody[]; obstacles: ObstacleShape[]; moved: Moved }
   | { kind: 'moved'; moved: Moved }
   | { kind: 'file'; name: string; data: string | Uint8Array }
   /** Nobody asked: the worker has come nearer to a hand that it did not reach at once. */

@@ -5,17 +5,20 @@ import { OrbitControls } from 'three/addons/controls/OrbitControls.js'
 import { TransformControls } from 'three/addons/controls/TransformControls.js'
 import { Arrows, type Insets } from './arrows'
 import { Solids, type Bodies } from './bodies'
+import { Contacts } from './contacts'
 import { Glyphs, type GlyphOptions } from './glyphs'
 import { Ground } from './ground'
 import { Hand } from './hand'
+import { levelFloor, Obstacles, outlines } from './obstacles'
 import { onPage, pick, type Picked } from './pick'
 import { length, measured, place, places } from './places'
 import { Props } from './props'
-import type { Body, Carried, MotionReport, Shape } from './protocol'
+import type { Body, Carried, MotionReport, ObstacleShape, Shape } from './protocol'
 import { MANY, Tubes, type Look, type Strand } from './tubes'
 
 export interface ViewOptions extends Look, GlyphOptions {
   arrows: boolean
+  contacts: boolean
 }
 
 /** What the stage must know of a scene beside its shape. */
@@ -28,6 +31,8 @@ export interface Setting {
   endIsHeld: boolean[]
   /** Whether joints tie them together. */
   tied: boolean
+  /** Whether they touch themselves, each other and obstacles. */
+  touches: boolean
   surgical: boolean
   /** Whether they grow out of skin. */
   skin: boolean
@@ -37,6 +42,9 @@ export interface Setting {
 export interface Scenery {
   rods: (Body & Carried)[]
   bodies: Bodies
+  obstacles: ObstacleShape[]
+  /** Nine numbers each: the point, the unit normal, the force, N. */
+  contacts: Float64Array
   held: number
   report: MotionReport
 }
@@ -46,6 +54,10 @@ const LIGHT = [0xf0f3f7, 0xe4e9ef, 0xcfd6de]
 const DARK = [0x10151c, 0x1a212b, 0x232c38]
 /** The thread is drawn at least this thick, over the size of the scene, if no other thickness is asked for. */
 const LEAST_RADIUS = 0.0042
+/** And this, where it touches something: surfaces that are drawn where they are not pass through each other. */
+const LEAST_TOUCHING = 0.0021
+/** A dot where something touches is at least this large, over the size of the scene. */
+const LEAST_DOT = 0.004
 /** How far below the thread the ground is, over the size of the scene. */
 const DROP = 0.07
 /** Room around the thread for arrows and needle, over the size of the scene. */
@@ -56,11 +68,13 @@ export class Stage {
   readonly tubes = new Tubes()
   readonly hand = new Hand()
   readonly solids = new Solids()
+  readonly obstacles = new Obstacles()
+  readonly contacts = new Contacts()
   readonly camera = new THREE.PerspectiveCamera(32, 1, 0.001, 50)
   readonly orbit: OrbitControls
   readonly gizmo: TransformControls
   view: ViewOptions = {
-    colourBy: 'curvature', map: 'viridis', range: null, displayScale: 1, arrows: true, directors: false, internalForce: false, internalMoment: false,
+    colourBy: 'curvature', map: 'viridis', range: null, displayScale: 1, arrows: true, contacts: true, directors: false, internalForce: false, internalMoment: false,
   }
   /** The size of the scene, m. */
   size = 0.2
@@ -75,7 +89,7 @@ export class Stage {
   #fill = new THREE.HemisphereLight(0xe6eeff, 0xa39a8c)
   #gap = new THREE.Line(new THREE.BufferGeometry(), new THREE.LineDashedMaterial({ color: 0xd0242f }))
   #shape: Shape | null = null
-  #setting: Setting = { square: [], startIsHeld: [], endIsHeld: [], tied: false, surgical: false, skin: false }
+  #setting: Setting = { square: [], startIsHeld: [], endIsHeld: [], tied: false, touches: false, surgical: false, skin: false }
   /** What moves, in place of the shape. */
   #moving: Scenery | null = null
   /** What else a view of all of the scene shows. */
@@ -115,7 +129,7 @@ export class Stage {
     })
     this.#rim.position.set(0.6, 1, 0.5)
     this.#scene.add(this.#fill, this.#rim, this.#key, this.#key.target, this.#ground.group, this.tubes.mesh, this.#glyphs.lines)
-    this.#scene.add(this.#props.end, this.#props.start, this.#props.below, this.#props.clips, this.#props.roots, this.#props.hold, this.solids.group, this.#gap, this.#arrows.group, this.gizmo.getHelper())
+    this.#scene.add(this.#props.end, this.#props.start, this.#props.below, this.#props.clips, this.#props.roots, this.#props.hold, this.solids.group, this.obstacles.group, this.contacts.group, this.#gap, this.#arrows.group, this.gizmo.getHelper())
     this.#gap.visible = this.#glyphs.lines.visible = false
     this.#gap.frustumCulled = false
     // The ring of the focus is for the keyboard.
@@ -141,6 +155,7 @@ export class Stage {
     this.#rim.intensity = dark ? 3.2 : 0.9
     this.#fill.intensity = dark ? 1.9 : 1.35
     this.#ground.setTheme(dark)
+    this.obstacles.setTheme(dark)
     this.#dirty = true
   }
 
@@ -157,8 +172,10 @@ export class Stage {
     this.#reach = []
     this.#clips = shape.report.between.map(({ node }) => node)
     this.solids.choose([])
+    this.obstacles.choose([], box.min, size)
+    this.contacts.forget()
     // Of many threads each is drawn thinner, so that they stay apart.
-    const thin = (LEAST_RADIUS * size) / radius / Math.max(1, all.length / 4) ** 0.25
+    const thin = ((setting.touches ? LEAST_TOUCHING : LEAST_RADIUS) * size) / radius / Math.max(1, all.length / 4) ** 0.25
     this.view.displayScale = thin <= 1 ? 1 : thin < 3 ? Math.ceil(thin * 2) / 2 : Math.ceil(thin)
     this.#furnish(all)
     this.#lookAt(places(all), FIRST_VIEW)
@@ -194,8 +211,13 @@ export class Stage {
     const others = swings ? starts.map((at) => new THREE.Vector3(2 * root.x - at.x, 2 * root.y - at.y, Math.min(at.z, root.z))) : []
     this.#reach = [...rests, ...starts, ...others, ...places([{ frames: moving.bodies.frames, halfExtent: moving.bodies.frames }])]
     const box = new THREE.Box3().setFromPoints(this.#reach)
+    this.obstacles.choose(moving.obstacles, box.getCenter(new THREE.Vector3()), this.size)
+    this.contacts.forget()
+    this.#reach.push(...outlines(moving.obstacles, box, this.size))
+    box.setFromPoints(this.#reach)
     const least = this.#setting.endIsHeld[0] || this.#setting.tied ? box.min.z : Math.min(box.min.z, root.z - length(held))
-    this.#floor = least - DROP * this.size
+    // What falls on a level plane has it for a floor.
+    this.#floor = levelFloor(moving.obstacles) ?? least - DROP * this.size
     this.#furnish(this.#ordered(moving))
     this.solids.choose(moving.bodies.shapes)
     this.#lookAt(this.#reach, FIRST_VIEW)
@@ -241,6 +263,7 @@ export class Stage {
     this.#connect(at, this.hand.position, grabbed !== null && at.distanceTo(this.hand.position) > 0.01 * this.size)
     const pull = grabbed ? [{ force: grabbed.force, moment: NOTHING }] : []
     this.#arrows.show(pull, this.view.arrows, this.size, [at])
+    this.contacts.show(moving.contacts, this.view.contacts, this.size, Math.max(this.#radius * this.view.displayScale, LEAST_DOT * this.size))
     this.#glyphs.show(held, this.view, this.size)
     this.#dirty = true
   }
@@ -353,7 +376,7 @@ export class Stage {
   /** A picture of thread and things alone, on nothing: WebP as an address of data. */
   picture(width: number, height: number): string {
     const { background } = this.#scene
-    const aside = [this.#ground.group, this.#arrows.group]
+    const aside = [this.#ground.group, this.#arrows.group, this.contacts.group].filter(({ visible }) => visible)
     this.#scene.background = null
     for (const thing of aside) thing.visible = false
     this.#renderer.setPixelRatio(1)

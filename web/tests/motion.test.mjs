@@ -2,9 +2,12 @@
 
 import assert from 'node:assert/strict'
 import { after, before, test } from 'node:test'
+import { readFile } from 'node:fs/promises'
+import { fileURLToPath } from 'node:url'
 import { badge, done, openPage, openScene, openText, out, resting, sharedPage, start, text, type, until } from './browser.mjs'
 
 let context
+const FLOOR = fileURLToPath(new URL('../../examples/strands_on_a_floor.toml', import.meta.url))
 const fresh = sharedPage(() => context)
 before(async () => (context = await start()))
 after(async () => context.stop())
@@ -268,6 +271,87 @@ test('bodies are drawn where they are, in their shapes', async () => {
   await openScene(page, 'suture')
   assert.equal((await bodies()).length, 0)
   assert.ok(await page.locator('#motion').isEnabled())
+  assert.deepEqual(complaints, [])
+})
+
+test('what falls on a floor touches it: the floor and the contacts are drawn, and a box switches these off', async () => {
+  const { page, complaints } = await fresh()
+  const drawn = () =>
+    page.evaluate(() => {
+      const { contacts, obstacles } = window.strands.stage
+      return { ...contacts.count, obstacles: obstacles.group.children.map(({ geometry }) => geometry.type) }
+    })
+  await openText(page, 'strands on a floor', await readFile(FLOOR, 'utf8'))
+  await page.locator('#rewind').click()
+  await done(page)
+  assert.deepEqual(await drawn(), { dots: 0, arrows: 0, obstacles: ['PlaneGeometry'] })
+  await page.locator('#play').click()
+  await until(page, () => window.strands.stage.contacts.count.dots > 40)
+  await page.locator('#play').click()
+  await done(page)
+  const touching = await drawn()
+  const { contacts, count } = await page.evaluate(() => ({ contacts: [...window.strands.motion.scenery.contacts], count: window.strands.motion.scenery.contacts.length / 9 }))
+  assert.equal(touching.dots, count)
+  assert.ok(touching.arrows > 0 && touching.arrows <= count, JSON.stringify(touching))
+  for (let i = 0; i < count; i++) assert.ok(Math.abs(Math.hypot(...contacts.slice(9 * i + 3, 9 * i + 6)) - 1) < 1e-9)
+  await page.screenshot({ path: `${out}contacts.png` })
+  await page.locator('summary', { hasText: 'View' }).click()
+  assert.ok(await page.locator('#contacts').isChecked())
+  await page.locator('#contacts').uncheck()
+  assert.deepEqual(await drawn(), { dots: 0, arrows: 0, obstacles: ['PlaneGeometry'] })
+  await page.locator('#contacts').check()
+  assert.deepEqual(await drawn(), touching)
+  await openScene(page, 'suture')
+  assert.deepEqual(await drawn(), { dots: 0, arrows: 0, obstacles: [] })
+  assert.ok(await page.locator('#contacts').isHidden())
+  await page.locator('summary', { hasText: 'View' }).click()
+  assert.deepEqual(complaints, [])
+})
+
+const SHAPES = `format = 1
+name = "shapes"
+[materials.soft]
+youngs_modulus = 1e7
+poisson_ratio = 0.4
+density = 1000.0
+[rods.thread]
+material = "soft"
+length = 0.2
+elements = 20
+section = { shape = "circle", radius = 1e-3 }
+supports = [{ at = "start", fix = ["position", "orientation"] }]
+[contact]
+${[
+  'shape = "sphere"\nradius = 0.01\nposition = [0.1, 0.0, 0.0]',
+  'shape = "capsule"\nradius = 0.01\nlength = 0.05\nposition = [0.1, 0.1, 0.0]',
+  'shape = "cylinder"\nradius = 0.01\nlength = 0.05\nposition = [-0.1, 0.0, 0.0]',
+  'shape = "box"\nsize = [0.02, 0.04, 0.06]\nposition = [0.0, 0.1, 0.0]',
+  'shape = "tube"\nradius = 0.3',
+].map((lines) => `[[obstacles]]\n${lines}\n`).join('')}
+[dynamics]
+start = "rest"
+`
+
+test('obstacles of all shapes are drawn where they are, and tubes and surfaces are seen through', async () => {
+  const { page, complaints } = await fresh()
+  await openText(page, 'shapes', SHAPES)
+  await until(page, () => window.strands.motion.scenery !== null)
+  const drawn = await page.evaluate(() =>
+    window.strands.stage.obstacles.group.children.map(({ geometry, material, position }) => {
+      geometry.computeBoundingBox()
+      const { min, max } = geometry.boundingBox
+      return { kind: geometry.type, through: material.transparent, at: position.toArray(), size: max.sub(min).toArray() }
+    }),
+  )
+  const near = (a, b) => assert.ok(a.every((x, i) => Math.abs(x - b[i]) < 1e-4), `${a} is not ${b}`)
+  assert.deepEqual(drawn.map(({ kind }) => kind), ['SphereGeometry', 'CapsuleGeometry', 'CylinderGeometry', 'BufferGeometry', 'CylinderGeometry'])
+  assert.deepEqual(drawn.map(({ through }) => through), [false, false, false, true, true])
+  near(drawn[1].at, [0.1, 0.1, 0])
+  near(drawn[1].size, [0.02, 0.02, 0.07])
+  near(drawn[2].size, [0.02, 0.02, 0.05])
+  near(drawn[3].size, [0.02, 0.04, 0.06])
+  near(drawn[4].size, [0.6, 0.6, 0.23])
+  await page.screenshot({ path: `${out}obstacles.png` })
   assert.deepEqual(complaints, [])
 })
 

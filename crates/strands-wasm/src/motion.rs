@@ -5,6 +5,7 @@
 
 mod bodies;
 mod grab;
+mod obstacles;
 mod pace;
 mod rods;
 
@@ -50,6 +51,13 @@ impl Motion {
     /// last two, the `length` along the third axis, or a `block` with its `size`, the edges along its axes, m. A body that has none is a ball of 2,000 kg/m³.
     pub fn body_shapes(&self) -> String {
         self.moving.bodies.to_string()
+    }
+
+    /// What the obstacles look like, as JSON: `[shape, …]`. A shape is of the `kind` `plane`, with a `point` and the `normal`; `capsule` or `cylinder`, with the
+    /// `ends` of its axis and the `radius`; `tube`, the inside of one without end, with a `point` and the direction of its `axis`, and its `radius`; or `mesh`, with
+    /// its `corners`, three numbers each, and the numbers of those of its `triangles`, m. A ball is a capsule whose ends are the same.
+    pub fn obstacles(&self) -> String {
+        self.moving.obstacles.to_string()
     }
 
     /// Half extents along `d1` and `d2` at each node, m.
@@ -106,6 +114,11 @@ impl Motion {
         flat(&self.moving.shown_bodies())
     }
 
+    /// What touched in the last step: nine numbers each, the point (m), the unit normal, and the force (N) along which it pushes and rubs, on the rod or on the first of two.
+    pub fn contacts(&self) -> Vec<f64> {
+        obstacles::flat(self.moving.rods.contacts())
+    }
+
     /// What the elements of all rods bear, body frame: first their strains, six numbers each, then moments and forces, six numbers each, and last their
     /// elastic energy per length, J/m.
     pub fn borne(&self) -> Vec<f64> {
@@ -127,6 +140,8 @@ struct Moving {
     rods: Rods,
     /// What the bodies look like.
     bodies: serde_json::Value,
+    /// And the obstacles.
+    obstacles: serde_json::Value,
     grab: Option<Grab>,
     pace: Pace,
     failure: Option<String>,
@@ -135,8 +150,14 @@ struct Moving {
 impl Moving {
     fn open(text: &str, file_name: &str) -> Result<Self, String> {
         let model = crate::session::read(text, file_name)?.model;
-        let bodies = bodies::drawn(&model);
-        Ok(Self { rods: Rods::of(&model)?, bodies, grab: None, pace: Pace::default(), failure: None })
+        Ok(Self {
+            rods: Rods::of(&model)?,
+            bodies: bodies::drawn(&model),
+            obstacles: obstacles::drawn(&model),
+            grab: None,
+            pace: Pace::default(),
+            failure: None,
+        })
     }
 
     fn advance(&mut self, seconds: f64, budget: f64, clock: impl Fn() -> f64) -> bool {

@@ -2,6 +2,7 @@
 
 use std::slice::SliceIndex;
 use strands::assembly::{Member, Strand};
+use strands::contact::Contact;
 use strands::coupling::Grip;
 use strands::dynamics::{Budget, Settings, Simulation, Start, Step};
 use strands::math::{Pose, Vec3, Wrench};
@@ -146,6 +147,11 @@ impl Rods {
             }
         };
         assembly.strands.iter().enumerate().map(shape).collect()
+    }
+
+    /// What touched in the last step.
+    pub fn contacts(&self) -> &[Contact] {
+        &self.simulation.state().contacts
     }
 
     /// What all elements bear.

@@ -232,3 +232,59 @@ fn a_knot_of_a_net_is_grabbed_and_pulled_up() {
         assert!(net.advance(0.1, f64::INFINITY, still), "{}", net.report());
     }
 }
+
+#[test]
+fn what_falls_on_a_floor_is_borne_by_its_contacts() {
+    let scene = include_str!("../../../../examples/strands_on_a_floor.toml");
+    let mut falling = Moving::open(scene, "strands_on_a_floor.toml").unwrap();
+    let floor = serde_json::json!({ "kind": "plane", "point": [0.0, 0.0, 0.0], "normal": [0.0, 0.0, 1.0] });
+    assert_eq!(falling.obstacles, serde_json::json!([floor]));
+    assert!(falling.rods.contacts().is_empty());
+    assert!(falling.advance(0.3, f64::INFINITY, still), "{}", falling.report());
+    let numbers = obstacles::flat(falling.rods.contacts());
+    assert_eq!(numbers.len(), 9 * falling.rods.contacts().len());
+    // The floor bears the weight of both; what they exert on each other is further up.
+    let on_floor = |contact: &&[f64]| contact[2].abs() < 1e-4;
+    let lift: f64 = numbers.chunks(9).filter(on_floor).map(|contact| contact[8]).sum();
+    let weight = 9.81 * (0..2).map(|rod| falling.rods.problem(rod).unwrap().rod.mass()).sum::<f64>();
+    assert!((lift / weight - 1.0).abs() < 0.2, "{lift} N bear {weight} N");
+    falling.rewind();
+    assert!(falling.rods.contacts().is_empty());
+}
+
+#[test]
+fn obstacles_of_all_shapes_are_described() {
+    let obstacles = r#"
+[contact]
+
+[[obstacles]]
+shape = "sphere"
+position = [0.0, 0.3, 0.0]
+radius = 0.1
+
+[[obstacles]]
+shape = "cylinder"
+position = [0.0, 0.0, -1.0]
+radius = 0.1
+length = 0.4
+
+[[obstacles]]
+shape = "tube"
+radius = 2.0
+
+[[obstacles]]
+shape = "box"
+position = [0.0, 0.0, -2.0]
+size = [0.1, 0.2, 0.4]
+"#;
+    let moving = Moving::open(&format!("{ROPE}{obstacles}"), "rope.toml").unwrap();
+    let [ball, cylinder, tube, block] = moving.obstacles.as_array().unwrap().as_slice() else { panic!() };
+    let ends = [[0.0, 0.3, 0.0], [0.0, 0.3, 0.0]];
+    assert_eq!(*ball, serde_json::json!({ "kind": "capsule", "ends": ends, "radius": 0.1 }));
+    assert_eq!(cylinder["kind"], "cylinder");
+    assert_eq!(cylinder["ends"], serde_json::json!([[0.0, 0.0, -1.2], [0.0, 0.0, -0.8]]));
+    assert_eq!((&tube["kind"], &tube["axis"]), (&"tube".into(), &serde_json::json!([0.0, 0.0, 1.0])));
+    assert_eq!(block["kind"], "mesh");
+    assert_eq!(block["corners"].as_array().unwrap().len(), 3 * 8);
+    assert_eq!(block["triangles"].as_array().unwrap().len(), 3 * 12);
+}
