@@ -1,7 +1,8 @@
 //! What two surfaces that touch exert on each other: Signorini's law and Coulomb's, as equations for Newton's method.
 //!
 //! Of a normal force `λ` and a gap `g` each is nought or more, and one of them nought. That is `λ = max(λ − ρ g, 0)` for any `ρ`; smoothed (Chen & Mangasarian 1993),
-//! `λ = (z + √(z² + 4ε²))/2` with `z = λ − ρ g`, it is `λ ρ g = ε²`: of the sort of a barrier, but solved for the force too. The friction is the projection of
+//! `λ = (z + √(z² + 4ε²))/2` with `z = λ − ρ g`, it is `λ ρ g = ε²`: of the sort of a barrier, but solved for the force too. Surfaces give way
+//! to a load by `d λ/(λ₀ + λ)`, so much less is the gap. The friction is the projection of
 //! `a − κ u` onto the disk of radius `μ λ`, with `u` the slip since the step began and `a` what the friction was when all else was solved last; where that is found
 //! again and again nothing slips by however little as long as it sticks (augmented Lagrangian, Alart & Curnier 1991). Both are implicit in the step.
 

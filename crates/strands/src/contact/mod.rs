@@ -1,9 +1,9 @@
 //! Contact: surfaces that touch, and what they exert on each other.
 //!
 //! A rod's surface is that of capsules, one about the chord of each element. What touches is found by the distance between two segments, of which either
-//! may be a point: two elements, a node and an element (beside each other elements touch all along, and nodes share the load), an element or node and an
-//! obstacle. Forces and gaps are solved for with the frames (`law`), and no iteration goes further than surfaces allow (`distance`), so nothing ever passes
-//! through anything.
+//! may be a point: two elements, a node and an element (beside each other elements touch all along, and nodes share the load), an element or node and a
+//! piece of an obstacle (`meeting`). Forces and gaps are solved for with the frames (`law`), and no iteration takes the axis of anything through anything
+//! (`distance`), so that nothing ever passes through.
 
 mod aabb;
 mod distance;

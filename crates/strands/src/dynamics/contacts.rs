@@ -137,9 +137,9 @@ impl Contacts {
             .then(|| ties().filter(|pair| pair.resists() || pair.is_near()).map(|pair| pair.frames))
     }
 
-    /// Takes the step that the linear system gives, also where frames take but a part of it: what presses then pushes back at once.
-    pub fn take(&mut self, network: &Network) {
-        self.pairs.iter_mut().for_each(|pair| pair.take(|ends| network.shift_apart(ends)));
+    /// Takes a part of the step that the linear system gives.
+    pub fn take(&mut self, network: &Network, part: f64) {
+        self.pairs.iter_mut().for_each(|pair| pair.take(part, |ends| network.shift_apart(ends)));
     }
 
     /// What touches, with its forces, by what it is between.

@@ -171,8 +171,8 @@ pub enum SimulationError {
     },
     /// Rods and bodies that are tied together do not come to rest.
     #[error(
-        "no equilibrium to start from was found (residuals {}): if nothing holds what moves there is none, and start = \"rest\" is the way",
-        written(history)
+        "no equilibrium to start from was found{}: if nothing holds what moves there is none, and start = \"rest\" is the way",
+        if history.is_empty() { String::new() } else { format!(" (residuals {})", written(history)) }
     )]
     NoRest {
         /// The residuals of the last step towards it.

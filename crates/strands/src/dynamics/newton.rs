@@ -334,7 +334,7 @@ impl Group {
             }
         }
         if let Some(network) = &self.network {
-            contacts.take(network);
+            contacts.take(network, part);
         }
         size
     }

@@ -300,13 +300,14 @@ impl Pair {
         Some(Touch { ends, pull: response.pull, stiffness: response.stiffness, bends, turns })
     }
 
-    /// Takes what the linear system gives: how the first side shifts against the second, m, for the points that it acts on.
-    pub fn take(&mut self, shift_apart: impl Fn(&[Option<TouchEnd>; 4]) -> Vec3) {
+    /// Takes a part of what the linear system gives: how the first side shifts against the second, m, for the points that it acts on.
+    pub fn take(&mut self, part: f64, shift_apart: impl Fn(&[Option<TouchEnd>; 4]) -> Vec3) {
         let Some(Looked { meeting, response: Response { pull, stiffness, .. }, .. }) = self.looked else {
             return;
         };
         let resisted = self.ends().map_or(Vec3::ZERO, |ends| stiffness * shift_apart(&ends));
-        self.known.pressed = (self.known.pressed + (pull - resisted).dot(meeting.normal)).max(0.0);
+        self.known.pressed =
+            (self.known.pressed + part * (pull - resisted).dot(meeting.normal)).max(0.0);
     }
 
     /// How fast energy goes by friction, and by what presses, W.
