@@ -306,8 +306,7 @@ impl Pair {
             return;
         };
         let resisted = self.ends().map_or(Vec3::ZERO, |ends| stiffness * shift_apart(&ends));
-        self.known.pressed =
-            (self.known.pressed + part * (pull - resisted).dot(meeting.normal)).max(0.0);
+        self.known.pressed = (self.known.pressed + part * (pull - resisted).dot(meeting.normal)).max(0.0);
     }
 
     /// How fast energy goes by friction, and by what presses, W.
