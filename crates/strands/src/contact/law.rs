@@ -67,6 +67,11 @@ impl Law {
         self.sticking = self.sticking.max(self.friction * pressed / slip);
     }
 
+    /// The same without friction.
+    pub fn smooth(self) -> Self {
+        Self { friction: 0.0, ..self }
+    }
+
     /// Lets what sticks slip less.
     pub fn sticks_more(&mut self) {
         self.sticking = (MORE * self.sticking).min(MOST * self.stiffness);

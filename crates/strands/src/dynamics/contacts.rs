@@ -106,6 +106,16 @@ impl Contacts {
         self.pairs.iter().map(slips).fold(0.0, f64::max)
     }
 
+    /// Whether some press and slide freely as yet.
+    pub fn wait(&self) -> bool {
+        self.pairs.iter().any(Pair::waits)
+    }
+
+    /// Lets those rub.
+    pub fn rub(&mut self) {
+        self.pairs.iter_mut().for_each(Pair::rub);
+    }
+
     /// Tells friction from where it is now.
     pub fn anchor(&mut self) {
         self.pairs.iter_mut().for_each(Pair::anchor);

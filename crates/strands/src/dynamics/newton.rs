@@ -29,6 +29,8 @@ const OF_GUESS: f64 = 1e-2;
 
 /// So often at most a step is shortened until no surface passes through another.
 const SHORTENED: usize = 20;
+/// It is about known what presses where no more than this is left over.
+const PRESSES: f64 = 1e-2;
 /// Friction is told anew where no more than this part of what slips that sticks is left over of all else.
 const ANCHORED: f64 = 1e-1;
 /// What can be cut is given up where so many iterations have left more than there was at first.
@@ -501,6 +503,11 @@ impl Simulation {
         let residual = loop {
             let mut residual = group.linearise(&given, stage, contacts, &mut work.poses, slopes);
             let floor = group.round_off(assembly, |_| 1.0) * per_square;
+            // What has come to touch rubs when it is about known what presses.
+            if residual <= PRESSES && contacts.wait() {
+                contacts.rub();
+                residual = group.linearise(&given, stage, contacts, &mut work.poses, slopes);
+            }
             // What sticks is let slip a little; where all else is solved, friction is told anew, so that it slips less.
             let slips = contacts.slips() / assembly.size();
             if slips > tolerance && residual <= (ANCHORED * slips).max(given.tolerance).max(floor) {

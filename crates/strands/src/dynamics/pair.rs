@@ -43,6 +43,8 @@ pub(super) struct Pair {
     radii: [f64; 2],
     pub law: Law,
     pub known: Multipliers,
+    /// Whether it slides freely as yet: nothing is known of its forces.
+    is_new: bool,
     /// Where it meets, if it is in range, and how it was looked at there last.
     meets: Option<(Meeting, Ends)>,
     pub looked: Option<Looked>,
@@ -67,6 +69,7 @@ pub(super) struct Left {
     between: [Toucher; 2],
     law: Law,
     known: Multipliers,
+    is_new: bool,
     looked: Looked,
     opposite: Option<(Response, f64)>,
 }
@@ -102,7 +105,19 @@ impl Pair {
         radii: [f64; 2],
     ) -> Self {
         let (law, known) = (Law::new(0.0, 1.0, 1.0, (1.0, 1.0)), Multipliers::NONE);
-        Self { between, kind, frames, fixed, radii, law, known, meets: None, looked: None, opposite: None }
+        Self {
+            between,
+            kind,
+            frames,
+            fixed,
+            radii,
+            law,
+            known,
+            is_new: true,
+            meets: None,
+            looked: None,
+            opposite: None,
+        }
     }
 
     /// Gives it its laws, of a friction, a stiffness, N/m, and a rod's stiffness against bending, N·m².
@@ -116,7 +131,7 @@ impl Pair {
     /// Takes what is known of its forces.
     pub fn know(&mut self, known: Multipliers) {
         self.law.slides_after(SLIDES * self.thin(), known.pressed);
-        self.known = known;
+        (self.known, self.is_new) = (known, false);
     }
 
     fn thickness(&self) -> f64 {
@@ -165,7 +180,7 @@ impl Pair {
         let (law, known, opposite) = (self.law, self.known, self.opposite.take());
         self.known = Multipliers::NONE;
         let looked = self.looked.take().filter(|_| known.pressed > 0.0)?;
-        Some(Left { between: self.between, law, known, looked, opposite })
+        Some(Left { between: self.between, law, known, is_new: self.is_new, looked, opposite })
     }
 
     /// Whether it is where what slides from one face of an obstacle to the next goes on: it meets with about the same normal, and was not looked at yet.
@@ -183,6 +198,7 @@ impl Pair {
     pub fn go_on_from(&mut self, left: Left) {
         (self.law, self.known, self.looked, self.opposite) =
             (left.law, left.known, Some(left.looked), left.opposite);
+        self.is_new = left.is_new;
     }
 
     /// Looks at it where it meets: adds what it exerts to what acts on the frames, and gives what its normal law is off by, m.
@@ -216,10 +232,11 @@ impl Pair {
         }
         let slip = velocity * stage.of_rate;
         let before = self.looked.map(|looked| looked.response);
-        let mut response = self.law.respond(&self.known, normal, gap, slip, self.opposite.as_ref());
+        let law = if self.is_new { self.law.smooth() } else { self.law };
+        let mut response = law.respond(&self.known, normal, gap, slip, self.opposite.as_ref());
         if let Some(before) = before.filter(|before| before.friction.dot(response.friction) < 0.0) {
             self.opposite = Some((before, 1.0));
-            response = self.law.respond(&self.known, normal, gap, slip, self.opposite.as_ref());
+            response = law.respond(&self.known, normal, gap, slip, self.opposite.as_ref());
         }
         if let Some((_, counts)) = &mut self.opposite {
             *counts *= 0.5;
@@ -242,6 +259,19 @@ impl Pair {
             return f64::INFINITY;
         }
         a.cross(b).norm() / a.norm().max(b.norm())
+    }
+
+    /// Whether it presses and slides freely as yet.
+    pub fn waits(&self) -> bool {
+        self.is_new && self.known.pressed > FELT * self.law.smoothing
+    }
+
+    /// Lets it rub, now that it is about known what presses.
+    pub fn rub(&mut self) {
+        if self.waits() {
+            self.is_new = false;
+            self.law.slides_after(SLIDES * self.thin(), self.known.pressed);
+        }
     }
 
     /// Tells friction from where it is now.

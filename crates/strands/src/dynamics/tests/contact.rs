@@ -392,3 +392,44 @@ fn rods_piled_side_by_side_come_to_rest() {
         assert!(if friction > 0.0 { top > 2.6 * RADIUS } else { top < 2.6 * RADIUS }, "{friction}: {top:e}");
     }
 }
+
+/// Three rods side by side, and three across them that fall onto them: every step is solved, nothing passes through anything, and they lie in two layers.
+#[test]
+fn crossed_layers_fall_onto_each_other() {
+    let rubber = Material::from_poisson(5e6, 0.45, 1100.0).unwrap();
+    let lies = |at: f64, is_across: bool| {
+        let (first, height) = (-0.03, if is_across { 3.5 } else { 1.1 } * RADIUS);
+        let base = if is_across {
+            Pose {
+                rotation: Mat3::from_cols(Vec3::X, -Vec3::Z, Vec3::Y),
+                position: Vec3::new(height, first, at),
+            }
+        } else {
+            Pose { position: Vec3::new(height, at, first), ..Pose::IDENTITY }
+        };
+        let strand = rod(0.06, RADIUS, rubber, Kinematics::Cosserat, 20);
+        let mut strand: Strand = free(strand, base, Vec3::X * -9.81).into();
+        strand.viscosity = 5e-3;
+        strand
+    };
+    let places = [-0.012, 0.001, 0.013];
+    let strands = places.iter().map(|at| lies(*at, false)).chain(places.iter().map(|at| lies(*at, true)));
+    let assembly = Assembly {
+        strands: strands.collect(),
+        surfaces: Some(Surfaces { friction: 0.3 }),
+        obstacles: vec![FLOOR],
+        ..Assembly::default()
+    };
+    let settings = Settings { mass_damping: 40.0, ..EULER };
+    let mut simulation = Simulation::new(assembly, settings, Start::Rest).unwrap();
+    for step in 0..400 {
+        simulation.step().unwrap_or_else(|failure| panic!("step {step}: {failure}"));
+        let least = simulation.state().contacts.iter().map(|contact| contact.gap).fold(1.0, f64::min);
+        assert!(least > 0.0, "step {step}: {least:e}");
+    }
+    for (node, pose) in simulation.state().poses.iter().enumerate() {
+        // Layers are a diameter apart; the ends of the upper ones hang.
+        let heights = if node < 63 { 1.0..1.1 } else { 2.5..3.1 };
+        assert!(heights.contains(&(pose.position.x / RADIUS)), "{node}: {:?}", pose.position);
+    }
+}
