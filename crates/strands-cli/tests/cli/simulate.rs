@@ -333,7 +333,7 @@ fn states_of_an_older_format_are_told_from_what_is_none() {
     let start = format!("dynamics.start=\"{}\"", folder.join("old.json").to_str().unwrap());
     let run = strands(&["simulate", "cantilever.toml", "--set", &start]);
     assert_eq!(run.code, 1);
-    assert!(run.err.contains("a state of format 1, and this program reads format 3"), "{}", run.err);
+    assert!(run.err.contains("a state of format 1, and this program reads format 4"), "{}", run.err);
 }
 
 #[test]
