@@ -78,7 +78,7 @@ impl Law {
     }
 
     /// On the first side, with the normal from the second to the first, the gap, and the slip of the first side against the second; and how it responded before in
-    /// the same search.
+    /// the same search. It may be known to stick.
     pub fn respond(
         &self,
         known: &Multipliers,
@@ -86,6 +86,7 @@ impl Law {
         gap: f64,
         slip: Vec3,
         before: Option<&(Response, f64)>,
+        sticks: bool,
     ) -> Response {
         let Self { friction, stiffness: rho, smoothing, gives, load, sticking: kappa } = *self;
         let pressed = known.pressed;
@@ -115,7 +116,7 @@ impl Law {
         let slip = response.slip;
         let tried = across * known.anchor - slip * kappa;
         let (size, bound) = (tried.norm(), friction * pressed.max(0.0));
-        if size <= bound {
+        if sticks || size <= bound {
             response.friction = tried;
             response.stiffness = response.stiffness + across.scaled(kappa);
             response.slips = slip.norm();

@@ -98,12 +98,12 @@ fn parallel_segments_touch_in_the_middle_of_where_they_are_beside_each_other() {
 fn what_sticks_and_what_slides() {
     let law = Law::new(0.5, 10.0, 1e-9, (1e-30, 1.0));
     let pressed = Multipliers { pressed: 2.0, anchor: Vec3::new(0.3, 0.0, 0.0) };
-    let stuck = law.respond(&pressed, Vec3::Z, 0.0, Vec3::ZERO, None);
+    let stuck = law.respond(&pressed, Vec3::Z, 0.0, Vec3::ZERO, None, false);
     assert!((stuck.force - Vec3::new(0.3, 0.0, 2.0)).norm() < 1e-12 && stuck.off < 1e-12, "{stuck:?}");
     // A slip along x is resisted by the whole of the friction that there may be.
-    let slides = law.respond(&pressed, Vec3::Z, 0.0, Vec3::new(0.1, 0.0, 0.0), None);
+    let slides = law.respond(&pressed, Vec3::Z, 0.0, Vec3::new(0.1, 0.0, 0.0), None, false);
     assert!((slides.friction - Vec3::new(-1.0, 0.0, 0.0)).norm() < 1e-12, "{slides:?}");
     // A gap has no force: what pressed is to go, with all of its stiffness.
-    let apart = law.respond(&Multipliers { pressed: 0.0, ..pressed }, Vec3::Z, 0.3, Vec3::ZERO, None);
+    let apart = law.respond(&Multipliers { pressed: 0.0, ..pressed }, Vec3::Z, 0.3, Vec3::ZERO, None, false);
     assert!(apart.force == Vec3::ZERO && apart.pull.norm() < 1e-15 && apart.stiffness.max_abs() < 1e-15);
 }

@@ -147,6 +147,12 @@ impl Contacts {
             .then(|| ties().filter(|pair| pair.resists() || pair.is_near()).map(|pair| pair.frames))
     }
 
+    /// What part of the step that the linear system gives leaves what slides near to where it was linearised.
+    pub fn sliding_part(&self, network: &Network) -> f64 {
+        let part = |pair: &Pair| pair.sliding_part(|ends| network.shift_apart(ends));
+        self.pairs.iter().map(part).fold(1.0, f64::min)
+    }
+
     /// Takes a part of the step that the linear system gives.
     pub fn take(&mut self, network: &Network, part: f64) {
         self.pairs.iter_mut().for_each(|pair| pair.take(part, |ends| network.shift_apart(ends)));

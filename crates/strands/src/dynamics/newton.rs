@@ -31,9 +31,9 @@ const OF_GUESS: f64 = 1e-2;
 const SHORTENED: usize = 20;
 /// It is about known what presses where no more than this is left over.
 const PRESSES: f64 = 1e-2;
-/// Friction is told anew where no more than this part of what slips that sticks is left over of all else.
-const ANCHORED: f64 = 1e-1;
-/// What can be cut is given up where so many iterations have left more than there was at first.
+/// Friction is told anew where no more than this is left over of all else.
+const ANCHORED: f64 = 1e-3;
+/// What can be cut is given up where so many iterations have left more than there was at first, or when friction was told anew.
 const SOON: usize = 8;
 /// So much of what surfaces allow is taken.
 const WITHIN: f64 = 0.9;
@@ -321,6 +321,9 @@ impl Group {
             self.take(assembly, ties, level, part, poses);
             return size;
         }
+        if let Some(network) = &self.network {
+            part = part.min(contacts.sliding_part(network));
+        }
         let before: Vec<Pose> = poses.to_vec();
         let records: Vec<Record> = self.rods.iter().map(|system| system.record.clone()).collect();
         for _ in 0..SHORTENED {
@@ -499,6 +502,8 @@ impl Simulation {
         let mut iterations = 0;
         // What is left over of a step that keeps energy adds up over all steps: one iteration more takes it to round-off.
         let mut last = !stage.middle;
+        // When friction was told anew last.
+        let mut told = 0;
         let (mut slopes, mut before) = (Slopes::Anew, f64::INFINITY);
         let residual = loop {
             let mut residual = group.linearise(&given, stage, contacts, &mut work.poses, slopes);
@@ -510,8 +515,9 @@ impl Simulation {
             }
             // What sticks is let slip a little; where all else is solved, friction is told anew, so that it slips less.
             let slips = contacts.slips() / assembly.size();
-            if slips > tolerance && residual <= (ANCHORED * slips).max(given.tolerance).max(floor) {
+            if slips > tolerance && residual <= ANCHORED.max(given.tolerance).max(floor) {
                 contacts.anchor();
+                told = iterations;
                 residual = group.linearise(&given, stage, contacts, &mut work.poses, slopes);
             }
             residual = larger(residual, slips);
@@ -527,7 +533,7 @@ impl Simulation {
                 break residual;
             }
             last |= solved;
-            let strays = work.hasty && iterations >= SOON && residual > work.history[0];
+            let strays = work.hasty && iterations >= told + SOON && residual > work.history[told];
             if spent || strays {
                 return Err(StepFailure::NotConverged { time, step, history: work.history.clone() });
             }

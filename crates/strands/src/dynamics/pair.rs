@@ -25,6 +25,8 @@ const SINKS: f64 = 0.5;
 const NEAR: f64 = 0.1;
 /// What is known to press slides after a slip of no more than so much of the radius of the thinner one, while forces are sought.
 const SLIDES: f64 = 1e-3;
+/// In one iteration surfaces slide or go apart by no more than so much of that radius, or of how far they slide in the step.
+const SHIFTS: f64 = 0.2;
 /// A surface goes on in another piece of it where the cosine between normals is more.
 const SAME_WAY: f64 = 0.9;
 /// A pair resists nothing where its stiffness is less than so much of what it has when it touches.
@@ -48,6 +50,8 @@ pub(super) struct Pair {
     /// Where it meets, if it is in range, and how it was looked at there last.
     meets: Option<(Meeting, Ends)>,
     pub looked: Option<Looked>,
+    /// Whether it sticks where it is looked at next, however great its friction is there.
+    sticks: bool,
     /// How it responded where it last slid the other way, and how much that still counts: half as much each time (the Illinois method).
     opposite: Option<(Response, f64)>,
 }
@@ -116,6 +120,7 @@ impl Pair {
             is_new: true,
             meets: None,
             looked: None,
+            sticks: false,
             opposite: None,
         }
     }
@@ -233,10 +238,10 @@ impl Pair {
         let slip = velocity * stage.of_rate;
         let before = self.looked.map(|looked| looked.response);
         let law = if self.is_new { self.law.smooth() } else { self.law };
-        let mut response = law.respond(&self.known, normal, gap, slip, self.opposite.as_ref());
+        let mut response = law.respond(&self.known, normal, gap, slip, self.opposite.as_ref(), self.sticks);
         if let Some(before) = before.filter(|before| before.friction.dot(response.friction) < 0.0) {
             self.opposite = Some((before, 1.0));
-            response = law.respond(&self.known, normal, gap, slip, self.opposite.as_ref());
+            response = law.respond(&self.known, normal, gap, slip, self.opposite.as_ref(), self.sticks);
         }
         if let Some((_, counts)) = &mut self.opposite {
             *counts *= 0.5;
@@ -247,6 +252,7 @@ impl Pair {
             let arm = arms[k] + (points[k] - poses[frame].position);
             stage.inertial[frame].exerts += Wrench::new(arm.cross(force), force);
         }
+        self.sticks = false;
         let off = response.off;
         self.looked = Some(Looked { meeting, points, arms, velocity, response });
         off
@@ -279,6 +285,7 @@ impl Pair {
         if let Some(looked) = &self.looked {
             self.known.anchor = looked.response.friction;
             self.opposite = None;
+            self.sticks = looked.response.slips > 0.0;
             self.law.sticks_more();
         }
     }
@@ -317,17 +324,40 @@ impl Pair {
         let beside = 0.5 * CROSSING * self.thickness();
         let presses = self.known.pressed > 0.0;
         let curvature = presses.then(|| meeting.curvature(points, beside)).flatten();
-        let bends =
-            curvature.map(|curvature| curvature.map(|row| row.map(|of| of.scaled(-self.known.pressed))));
-        // The places that touch go round as the normal turns: with friction, for what presses points through the axis.
-        let turns = curvature.map(|curvature| {
+        let (normal, friction) = (meeting.normal, response.friction);
+        // How the normal turns, and how much of the force a point takes changes, with a shift of each.
+        let turned = |curvature: &[[Mat3; 4]; 4], l: usize| curvature[0][l] + curvature[1][l];
+        let shared = |curvature: &[[Mat3; 4]; 4], k: usize, l: usize| curvature[k][l].transpose() * normal;
+        let bends = curvature.as_ref().map(|curvature| {
             core::array::from_fn(|k| {
-                let radius = if self.side(k) == 0 { -self.radii[0] } else { self.radii[1] };
-                let arm = Mat3::hat(response.friction).scaled(meeting.weights[k] * radius);
-                core::array::from_fn(|l| arm * (curvature[0][l] + curvature[1][l]))
+                core::array::from_fn(|l| {
+                    let along = Mat3::outer(normal, turned(curvature, l).transpose() * friction);
+                    let passed_on = Mat3::outer(friction, shared(curvature, k, l));
+                    along.scaled(meeting.weights[k]) - passed_on - curvature[k][l].scaled(self.known.pressed)
+                })
+            })
+        });
+        // The places that touch go round as the normal turns: with friction, for what presses points through the axis.
+        let turns = curvature.as_ref().map(|curvature| {
+            core::array::from_fn(|k| {
+                let side = self.side(k);
+                let radius = if side == 0 { -self.radii[0] } else { self.radii[1] };
+                let arm = Mat3::hat(friction).scaled(meeting.weights[k] * radius);
+                let moment = (normal * radius).cross(friction);
+                core::array::from_fn(|l| {
+                    arm * turned(curvature, l) - Mat3::outer(moment, shared(curvature, k, l))
+                })
             })
         });
         Some(Touch { ends, pull: response.pull, stiffness: response.stiffness, bends, turns })
+    }
+
+    /// What part of a step may be taken, by which the first side shifts so against the second, m, for the points that it acts on: round what is curved the normal turns as it slides.
+    pub fn sliding_part(&self, shift_apart: impl Fn(&[Option<TouchEnd>; 4]) -> Vec3) -> f64 {
+        let Some(looked) = self.looked.filter(|_| self.kind != Kind::Plane) else { return 1.0 };
+        let Some(ends) = self.ends() else { return 1.0 };
+        let most = (SHIFTS * self.thin()).max(SHIFTS * looked.response.slip.norm());
+        most / shift_apart(&ends).norm().max(most)
     }
 
     /// Takes a part of what the linear system gives: how the first side shifts against the second, m, for the points that it acts on.
