@@ -57,6 +57,7 @@ fn ratio(friction: f64, angle: f64, elements: usize) -> f64 {
         shape: Shape::Cylinder { ends: [middle - half, middle + half], radius: POST },
         friction: None,
         body: None,
+        tissue: None,
     }];
     let settings = Settings {
         integrator: Integrator::ImplicitEuler,

@@ -4,7 +4,7 @@ use core::fmt;
 
 use serde::{Deserialize, Serialize};
 use strands::assembly::MassMatrix;
-use strands::contact::{Contact, Toucher};
+use strands::contact::{Contact, End, Passage, Through, Toucher};
 use strands::dynamics::{Means, Past, Power, State};
 use strands::math::{Mat3, Pose, Vec3, Vec6};
 use thiserror::Error;
@@ -60,6 +60,8 @@ struct Written {
     past: WrittenPast,
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
     contacts: Vec<WrittenContact>,
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
+    passages: Vec<WrittenPassage>,
 }
 
 /// All that is read before the format is known.
@@ -146,6 +148,33 @@ enum WrittenToucher {
 
 #[derive(Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
+struct WrittenPassage {
+    through: WrittenThrough,
+    rod: usize,
+    at: f64,
+    place: [f64; 3],
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    body: Option<usize>,
+    force: [f64; 3],
+}
+
+#[derive(Serialize, Deserialize)]
+#[serde(rename_all = "snake_case", deny_unknown_fields)]
+enum WrittenThrough {
+    Eyelet { eyelet: usize },
+    Into { obstacle: usize, end: WrittenEnd, been_inside: bool },
+    OutOf { obstacle: usize, end: WrittenEnd },
+}
+
+#[derive(Serialize, Deserialize)]
+#[serde(rename_all = "snake_case")]
+enum WrittenEnd {
+    Start,
+    End,
+}
+
+#[derive(Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
 struct WrittenMeans {
     velocity: Row<6>,
     momentum: Row<6>,
@@ -169,6 +198,7 @@ pub fn state_json(model: &Model, state: &State) -> String {
         power: [state.power.dissipated, state.power.worked],
         next_step: state.next_step,
         contacts: state.contacts.iter().map(contact_out).collect(),
+        passages: state.passages.iter().map(passage_out).collect(),
         past: match &state.past {
             Past::None => WrittenPast::None,
             Past::Before { poses, momenta } => {
@@ -213,6 +243,7 @@ pub fn read_state(model: &Model, text: &str) -> Result<State, StateError> {
         power: Power { dissipated, worked },
         next_step: written.next_step,
         contacts: written.contacts.into_iter().map(contact_in).collect(),
+        passages: written.passages.into_iter().map(passage_in).collect(),
         past: match written.past {
             WrittenPast::None => Past::None,
             WrittenPast::Before { poses, momenta } => {
@@ -251,6 +282,38 @@ fn same<T: PartialEq + fmt::Display>(there: &[T], here: &[T]) -> Result<(), Stat
         }
     }
     Ok(())
+}
+
+fn passage_out(passage: &Passage) -> WrittenPassage {
+    let end = |end: End| match end {
+        End::Start => WrittenEnd::Start,
+        End::End => WrittenEnd::End,
+    };
+    let through = match passage.through {
+        Through::Eyelet(eyelet) => WrittenThrough::Eyelet { eyelet },
+        Through::Into(obstacle, of, been_inside) => {
+            WrittenThrough::Into { obstacle, end: end(of), been_inside }
+        }
+        Through::OutOf(obstacle, of) => WrittenThrough::OutOf { obstacle, end: end(of) },
+    };
+    let Passage { rod, at, place, body, force, .. } = *passage;
+    WrittenPassage { through, rod, at, place: place.to_array(), body, force: force.to_array() }
+}
+
+fn passage_in(written: WrittenPassage) -> Passage {
+    let end = |end: WrittenEnd| match end {
+        WrittenEnd::Start => End::Start,
+        WrittenEnd::End => End::End,
+    };
+    let through = match written.through {
+        WrittenThrough::Eyelet { eyelet } => Through::Eyelet(eyelet),
+        WrittenThrough::Into { obstacle, end: of, been_inside } => {
+            Through::Into(obstacle, end(of), been_inside)
+        }
+        WrittenThrough::OutOf { obstacle, end: of } => Through::OutOf(obstacle, end(of)),
+    };
+    let WrittenPassage { rod, at, place, body, force, .. } = written;
+    Passage { through, rod, at, place: place.into(), body, force: force.into() }
 }
 
 fn contact_out(contact: &Contact) -> WrittenContact {

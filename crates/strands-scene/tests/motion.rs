@@ -3,7 +3,7 @@
 use serde_json::Value;
 use std::collections::HashMap;
 use std::io::{Cursor, Read};
-use strands::contact::{Contact, Toucher};
+use strands::contact::{Contact, Passage, Through, Toucher};
 use strands::math::{Pose, Vec3, Vec6, Wrench};
 use strands::statics::Reaction;
 use strands_scene::write::{
@@ -74,6 +74,14 @@ fn moved() -> (Model, Vec<Frame>) {
             normal: Vec3::Z,
             gap: 1e-6,
             force: Vec3::new(0.0, 0.1, time),
+        }],
+        passages: vec![Passage {
+            through: Through::Eyelet(0),
+            rod: 0,
+            at: 0.01,
+            place: Vec3::new(0.0, 0.0, 0.3),
+            body: Some(0),
+            force: Vec3::new(0.0, 0.2, time),
         }],
         energy: FrameEnergy { kinetic: time, elastic: 2.0, load: -1.0, dissipated: 0.5, work: None },
         iterations: 7,

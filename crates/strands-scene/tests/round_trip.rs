@@ -136,13 +136,13 @@ fn body() -> impl Strategy<Value = BodyFile> {
     (
         (word(), prop::option::of(shape), size(), size(), vectors()),
         (vectors(), prop::option::of(quaternion()), vectors(), vectors()),
-        prop::option::of(body_support()),
+        (prop::option::of(body_support()), prop::option::of(tissue())),
     )
         .prop_map(
             |(
                 (name, shape, density, mass, inertia),
                 (position, orientation, velocity, angular_velocity),
-                support,
+                (support, tissue),
             )| BodyFile {
                 name,
                 shape,
@@ -153,6 +153,7 @@ fn body() -> impl Strategy<Value = BodyFile> {
                 orientation,
                 velocity,
                 angular_velocity,
+                tissue,
                 support,
             },
         )
@@ -325,6 +326,27 @@ fn dynamics() -> impl Strategy<Value = DynamicsFile> {
         )
 }
 
+fn tissue() -> impl Strategy<Value = TissueFile> {
+    (number(), number(), [positive(), positive()].map(prop::option::of)).prop_map(
+        |(pierced_by, stiffness, [friction, grip])| TissueFile { pierced_by, stiffness, friction, grip },
+    )
+}
+
+fn eyelet() -> impl Strategy<Value = EyeletFile> {
+    let numbers = [positive(), positive(), positive()].map(prop::option::of);
+    (word(), place(), prop::option::of(vector()), prop::option::of(word()), numbers).prop_map(
+        |(rod, at, position, body, [stiffness, friction, grip])| EyeletFile {
+            rod,
+            at,
+            position,
+            body,
+            stiffness,
+            friction,
+            grip,
+        },
+    )
+}
+
 fn obstacle() -> impl Strategy<Value = ObstacleFile> {
     let shape = prop::sample::select(vec![
         ObstacleName::Plane,
@@ -343,8 +365,8 @@ fn obstacle() -> impl Strategy<Value = ObstacleFile> {
         prop::option::of(prop::collection::vec(vector(), 0..4)),
         prop::option::of(prop::collection::vec([0..9_usize, 0..9_usize, 0..9_usize], 0..4)),
     );
-    (shape, place, turned, prop::option::of(vector()), sizes, mesh).prop_map(
-        |(shape, (position, normal), orientation, size, sizes, (file, corners, triangles))| {
+    (shape, place, turned, prop::option::of(vector()), sizes, mesh, prop::option::of(tissue())).prop_map(
+        |(shape, (position, normal), orientation, size, sizes, (file, corners, triangles), tissue)| {
             let [radius, length, scale, friction] = sizes;
             ObstacleFile {
                 shape,
@@ -359,6 +381,7 @@ fn obstacle() -> impl Strategy<Value = ObstacleFile> {
                 corners,
                 triangles,
                 friction,
+                tissue,
             }
         },
     )
@@ -376,6 +399,7 @@ fn scene() -> impl Strategy<Value = SceneFile> {
             prop::option::of(vector()),
             prop::option::of(prop::option::of(positive())),
             prop::collection::vec(obstacle(), 0..3),
+            prop::collection::vec(eyelet(), 0..3),
         ),
     )
         .prop_map(
@@ -386,7 +410,7 @@ fn scene() -> impl Strategy<Value = SceneFile> {
                 rods,
                 (bodies, joints),
                 (coupling, solver, dynamics),
-                (wind, contact, obstacles),
+                (wind, contact, obstacles, eyelets),
             )| SceneFile {
                 format: 1,
                 name,
@@ -399,6 +423,7 @@ fn scene() -> impl Strategy<Value = SceneFile> {
                 wind: wind.map(|velocity| WindFile { velocity }),
                 contact: contact.map(|friction| ContactFile { friction }),
                 obstacles,
+                eyelets,
                 solver,
                 dynamics,
             },

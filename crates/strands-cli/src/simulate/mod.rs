@@ -370,6 +370,7 @@ fn frame(model: &Model, simulation: &Simulation, iterations: usize, residual: f6
         rods: assembly.strands.iter().enumerate().map(moved).collect(),
         bodies: model.bodies.iter().zip(assembly.first_body()..).map(body).collect(),
         contacts: state.contacts.clone(),
+        passages: state.passages.clone(),
         energy,
         iterations,
         residual,

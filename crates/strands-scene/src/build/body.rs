@@ -1,7 +1,7 @@
 //! Rigid bodies.
 
 use super::sizes::Sizes;
-use super::{Context, hold};
+use super::{Context, hold, passage};
 use crate::document::{Document, KeyPath};
 use crate::error::SceneError;
 use crate::file::{BodyFile, BodyShapeFile, BodyShapeName};
@@ -39,11 +39,20 @@ fn body(context: &Context, path: &KeyPath, written: &BodyFile) -> Result<ModelBo
     let mut body = Body::new(inertia, pose).with_gravity(context.gravity);
     let support = written.support.as_ref();
     let held = support.map(|support| hold::body(document, &path.key("support"), support)).transpose()?;
+    let tissue = match &written.tissue {
+        Some(_) if shape.is_none() => {
+            let error =
+                document.error(&path.key("tissue"), "a body without a shape has no surface to pierce");
+            return Err(error.mend("give it a `shape` with a `density`, or remove `tissue`"));
+        }
+        written => written.as_ref().map(|written| passage::tissue(context, path, written)).transpose()?,
+    };
     body.support = held.as_ref().map(|held| held.support(pose));
     Ok(ModelBody {
         name: written.name.clone(),
         body,
         shape,
+        tissue,
         velocity: written.velocity.unwrap_or_default().into(),
         angular_velocity: written.angular_velocity.unwrap_or_default().into(),
         held,

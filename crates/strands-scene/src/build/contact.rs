@@ -1,7 +1,7 @@
 //! What touches.
 
 use super::sizes::Sizes;
-use super::{Context, mesh};
+use super::{Context, mesh, passage};
 use crate::document::{Document, KeyPath};
 use crate::error::SceneError;
 use crate::file::{ObstacleFile, ObstacleName, SceneFile};
@@ -92,7 +92,15 @@ fn obstacle(context: &Context, path: &KeyPath, written: &ObstacleFile) -> Result
         .friction
         .map(|friction| document.not_negative(&path.key("friction"), friction))
         .transpose()?;
-    Ok(Obstacle { shape, friction, body: None })
+    let tissue = match &written.tissue {
+        Some(_) if written.shape == ObstacleName::Tube => {
+            let error =
+                document.error(&path.key("tissue"), "rods are inside of a tube, and cannot pierce it");
+            return Err(error.mend("remove it, or take a shape that rods are outside of"));
+        }
+        written => written.as_ref().map(|written| passage::tissue(context, path, written)).transpose()?,
+    };
+    Ok(Obstacle { shape, friction, body: None, tissue })
 }
 
 /// A mesh from its file or as it is written, put where it is.

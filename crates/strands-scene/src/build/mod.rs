@@ -7,6 +7,7 @@ mod hold;
 mod joint;
 mod load;
 mod mesh;
+mod passage;
 mod profile;
 mod rest;
 mod rod;
@@ -85,9 +86,11 @@ pub(crate) fn model(
         wind: file.wind.as_ref().map_or(Vec3::ZERO, |wind| wind.velocity.into()),
         surfaces: contact::surfaces(&context)?,
         obstacles: contact::obstacles(&context)?,
+        eyelets: Vec::new(),
         settings,
         dynamics,
     };
     model.joints = joint::joints(&context, &model)?;
+    model.eyelets = passage::eyelets(&context, &model)?;
     Ok(model)
 }

@@ -1,5 +1,6 @@
 //! Contact and obstacles, as written.
 
+use super::passage::TissueFile;
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
@@ -52,6 +53,9 @@ pub struct ObstacleFile {
     /// The coefficient of friction on it. Default that of `[contact]`.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub friction: Option<f64>,
+    /// What the ends of rods pierce. Default: nothing goes into it.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub tissue: Option<TissueFile>,
 }
 
 /// Which shape an obstacle has.

@@ -6,6 +6,7 @@
 mod contact;
 mod held;
 mod network;
+mod passage;
 mod rod;
 mod settings;
 
@@ -16,6 +17,7 @@ pub use held::{
 pub use network::{
     BodyFile, BodyShapeFile, BodyShapeName, BodySupportFile, JointEndFile, JointFile, JointName,
 };
+pub use passage::{EyeletFile, TissueFile};
 pub use rod::{
     DragFile, HelixFile, KinematicsName, MassMatrixName, RestFile, RestSample, RodFile, SectionFile,
     SectionsFile, ShapeName, StiffnessFile,
@@ -64,6 +66,9 @@ pub struct SceneFile {
     /// What stands still and is touched, with `[contact]`.
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
     pub obstacles: Vec<ObstacleFile>,
+    /// What rods slide through in a simulation, with `[contact]`. They have no effect on a static solve.
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
+    pub eyelets: Vec<EyeletFile>,
     /// How to solve.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub solver: Option<SolverFile>,

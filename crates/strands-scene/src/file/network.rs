@@ -1,6 +1,7 @@
 //! Rigid bodies, and joints between rods and bodies, as written.
 
 use super::held::{FixName, KeyframeFile, Place, SupportFile};
+use super::passage::TissueFile;
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
@@ -34,6 +35,9 @@ pub struct BodyFile {
     /// How fast it then turns, rad/s, in world axes. Default 0.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub angular_velocity: Option<[f64; 3]>,
+    /// What the ends of rods pierce; with `shape`. Default: nothing goes into it.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub tissue: Option<TissueFile>,
     /// What holds it at its centre of mass. Default: nothing.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub support: Option<BodySupportFile>,

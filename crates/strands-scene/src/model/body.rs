@@ -2,7 +2,7 @@
 
 use super::Held;
 use strands::assembly::{self, Body};
-use strands::contact::Shape;
+use strands::contact::{Shape, Tissue};
 use strands::math::Vec3;
 use strands::rod::NodeInertia;
 
@@ -15,6 +15,8 @@ pub struct ModelBody {
     pub body: Body,
     /// Its shape, to draw it; `None` where its inertia is given without one.
     pub shape: Option<BodyShape>,
+    /// What it is that ends of rods pierce, if they do.
+    pub tissue: Option<Tissue>,
     /// How fast it sets off where the motion starts from rest, world axes, m/s.
     pub velocity: Vec3,
     /// How fast it then turns, world axes, rad/s.

@@ -10,7 +10,7 @@ pub use motion::OUTPUT_RATE;
 
 use crate::file::DynamicsFile;
 use strands::assembly::{Drag, Joint, MassMatrix};
-use strands::contact::{Obstacle, Surfaces};
+use strands::contact::{Eyelet, Obstacle, Surfaces};
 use strands::coupling::VirtualCoupling;
 use strands::load::{DistributedLoad, DistributedPull, NodalLoads, PointLoad, PointPull};
 use strands::math::Vec3;
@@ -40,6 +40,8 @@ pub struct Model {
     pub surfaces: Option<Surfaces>,
     /// What stands still and is touched, in the order of the file.
     pub obstacles: Vec<Obstacle>,
+    /// What rods slide through, in the order of the file.
+    pub eyelets: Vec<Eyelet>,
     /// How to solve.
     pub settings: Settings,
     /// How to simulate motion, as the scene says it.

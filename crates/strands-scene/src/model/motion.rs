@@ -30,6 +30,7 @@ impl Model {
             wind: self.wind,
             surfaces: self.surfaces,
             obstacles: self.obstacles.iter().cloned().chain(self.body_surfaces()).collect(),
+            eyelets: self.eyelets.clone(),
         }
     }
 
@@ -37,7 +38,7 @@ impl Model {
     fn body_surfaces(&self) -> impl Iterator<Item = Obstacle> {
         let surface = |(body, of): (usize, &ModelBody)| {
             let shape = of.shape.as_ref()?.surface();
-            Some(Obstacle { shape, friction: None, body: Some(body) })
+            Some(Obstacle { shape, friction: None, body: Some(body), tissue: of.tissue })
         };
         self.bodies.iter().enumerate().filter_map(surface)
     }

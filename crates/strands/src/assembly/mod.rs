@@ -14,7 +14,7 @@ pub use joint::{Attachment, Joint, JointKind};
 pub use keyframes::Keyframes;
 pub(crate) use ties::{Cluster, Ties};
 
-use crate::contact::{Obstacle, Surfaces};
+use crate::contact::{Eyelet, Obstacle, Surfaces};
 use crate::math::{Pose, Vec3};
 use crate::statics::{Problem, Support};
 use core::ops::Range;
@@ -77,6 +77,8 @@ pub struct Assembly {
     pub surfaces: Option<Surfaces>,
     /// What stands still and is touched.
     pub obstacles: Vec<Obstacle>,
+    /// What rods slide through, where surfaces touch.
+    pub eyelets: Vec<Eyelet>,
 }
 
 /// A frame of an assembly.
@@ -137,6 +139,7 @@ impl Default for Assembly {
             wind: Vec3::ZERO,
             surfaces: None,
             obstacles: Vec::new(),
+            eyelets: Vec::new(),
         }
     }
 }

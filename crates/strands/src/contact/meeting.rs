@@ -133,7 +133,7 @@ fn foot([node, a, b, c]: &Ends) -> Option<[f64; 2]> {
 }
 
 /// How far a point is from a triangle.
-fn from_triangle(points: &Ends) -> f64 {
+pub(super) fn from_triangle(points: &Ends) -> f64 {
     let [node, a, b, c] = *points;
     if let Some(meeting) = Kind::Face.meet(points) {
         return meeting.distance;

@@ -11,6 +11,7 @@ mod law;
 mod meeting;
 mod mesh;
 mod obstacle;
+mod passage;
 mod tree;
 
 pub(crate) use aabb::Aabb;
@@ -20,6 +21,8 @@ pub(crate) use meeting::{Kind, Meeting};
 pub use mesh::{Mesh, MeshError};
 pub(crate) use obstacle::Part;
 pub use obstacle::{Obstacle, Shape};
+pub(crate) use passage::{Axis, Held};
+pub use passage::{End, Eyelet, Hold, Passage, Through, Tissue};
 pub(crate) use tree::Tree;
 
 use crate::math::Vec3;

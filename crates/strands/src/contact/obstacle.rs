@@ -1,6 +1,9 @@
 //! What is touched beside rods, and of what its surface is made.
 
+use super::Nearest;
+use super::meeting::from_triangle;
 use super::mesh::Mesh;
+use super::passage::Tissue;
 use crate::math::Vec3;
 use std::sync::Arc;
 
@@ -13,6 +16,8 @@ pub struct Obstacle {
     pub friction: Option<f64>,
     /// The body that it is of; else it stands still.
     pub body: Option<usize>,
+    /// What it is that ends of rods pierce, if they do.
+    pub tissue: Option<Tissue>,
 }
 
 /// The shape of an obstacle.
@@ -74,6 +79,34 @@ impl Shape {
         Self::Mesh(Arc::new(Mesh::block(middle, half, axes)))
     }
 
+    /// How far a point is from its surface, m, less than nothing inside. Inside of a mesh is what its triangles are all around.
+    pub fn distance(&self, point: Vec3) -> f64 {
+        match self {
+            Self::Plane { point: on, normal } => (point - *on).dot(*normal),
+            Self::Capsule { ends: [a, b], radius } => {
+                Nearest::of(&[point, point, *a, *b]).apart.norm() - radius
+            }
+            Self::Cylinder { ends: [a, b], radius } => {
+                let (middle, axis) = ((*a + *b) * 0.5, *b - *a);
+                let (length, unit) = (axis.norm(), axis * (1.0 / axis.norm()));
+                let along = (point - middle).dot(unit);
+                let out = [(point - middle - unit * along).norm() - radius, along.abs() - 0.5 * length];
+                let [across, beyond] = out;
+                if across > 0.0 && beyond > 0.0 { across.hypot(beyond) } else { across.max(beyond) }
+            }
+            Self::Bore { point: on, axis, radius } => {
+                let from = point - *on;
+                radius - (from - *axis * from.dot(*axis)).norm()
+            }
+            Self::Mesh(mesh) => {
+                let nearest = mesh.triangles().map(|[a, b, c]| from_triangle(&[point, a, b, c]));
+                let apart = nearest.fold(f64::INFINITY, f64::min);
+                let crossed = mesh.triangles().filter(|corners| is_ahead(point, corners)).count();
+                if crossed % 2 == 1 { -apart } else { apart }
+            }
+        }
+    }
+
     /// Of what its surface is made.
     pub(crate) fn parts(&self) -> Vec<Part> {
         match self {
@@ -91,6 +124,18 @@ impl Shape {
             }
         }
     }
+}
+
+/// Whether a ray from a point goes through a triangle (Möller & Trumbore 1997). It points where hardly any edge of a mesh is in its way.
+fn is_ahead(point: Vec3, [a, b, c]: &[Vec3; 3]) -> bool {
+    let ray = Vec3::new(0.5417, 0.3391, 0.7691);
+    let (one, other, from) = (*b - *a, *c - *a, point - *a);
+    let normal = ray.cross(other);
+    let volume = one.dot(normal);
+    let u = from.dot(normal) / volume;
+    let turned = from.cross(one);
+    let v = ray.dot(turned) / volume;
+    volume != 0.0 && u >= 0.0 && v >= 0.0 && u + v <= 1.0 && other.dot(turned) / volume > 0.0
 }
 
 fn edge(ends: [Vec3; 2]) -> Part {

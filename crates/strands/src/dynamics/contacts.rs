@@ -2,9 +2,10 @@
 
 use super::near::Neighbours;
 use super::pair::{Left, Pair};
+use super::passages::Passages;
 use super::stage::Stage;
 use crate::assembly::{Assembly, Strand};
-use crate::contact::{Contact, Multipliers, Toucher};
+use crate::contact::{Contact, Multipliers, Passage, Toucher};
 use crate::math::Pose;
 use crate::statics::{Network, Touch};
 
@@ -12,6 +13,7 @@ use crate::statics::{Network, Touch};
 #[derive(Clone, Debug, Default)]
 pub(super) struct Contacts {
     neighbours: Neighbours,
+    pub passages: Passages,
     pairs: Vec<Pair>,
     /// What touched at the stage's beginning, by what it is between.
     known: Vec<Contact>,
@@ -35,9 +37,11 @@ impl Contacts {
         friction: f64,
         (from, to): (&[Pose], &[Pose]),
         of_rate: f64,
-        known: &[Contact],
+        (known, passages): (&[Contact], &[Passage]),
     ) {
         self.neighbours.find(assembly, from, to);
+        self.passages.begin(passages);
+        self.neighbours.leave_out(&self.passages.inside(assembly), from);
         self.friction = friction;
         self.stiffness.clear();
         let strands = assembly.strands.iter();
@@ -86,10 +90,12 @@ impl Contacts {
         self.known = known;
         self.pairs.clear();
         self.neighbours.find(assembly, poses, poses);
+        self.neighbours.leave_out(&self.passages.inside(assembly), poses);
     }
 
     /// Looks at all pairs: adds what they exert to what acts on the frames, and gives what their normal laws are off by, m.
-    pub fn look(&mut self, stage: &mut Stage, poses: &[Pose]) -> f64 {
+    pub fn look(&mut self, assembly: &Assembly, stage: &mut Stage, poses: &[Pose]) -> f64 {
+        self.passages.look(assembly, stage, poses);
         self.meet(poses);
         self.left.extend(self.pairs.iter_mut().filter_map(|pair| pair.meet(poses)));
         for left in self.left.drain(..) {
@@ -122,8 +128,8 @@ impl Contacts {
     }
 
     /// The pairs, for the linear system.
-    pub fn touches(&self) -> impl Iterator<Item = Touch> {
-        self.pairs.iter().filter_map(Pair::touch)
+    pub fn touches(&self, assembly: &Assembly, poses: &[Pose]) -> impl Iterator<Item = Touch> {
+        self.pairs.iter().filter_map(Pair::touch).chain(self.passages.touches(assembly, poses))
     }
 
     /// The first of those that pass into each other, if any do.
@@ -134,17 +140,24 @@ impl Contacts {
     }
 
     /// How fast energy goes by friction, and by what presses, W.
-    pub fn power(&self) -> f64 {
-        self.pairs.iter().map(Pair::power).sum()
+    pub fn power(&self, of_rate: f64) -> f64 {
+        self.pairs.iter().map(Pair::power).sum::<f64>() + self.passages.power(of_rate)
     }
 
     /// The frames of pairs that touch and are not joined in a linear system; if there are any, of all that touch or nearly do.
-    pub fn new_ties(&self, network: &Network) -> Option<impl Iterator<Item = [Option<usize>; 4]>> {
+    pub fn new_ties(
+        &self,
+        assembly: &Assembly,
+        network: &Network,
+    ) -> Option<impl Iterator<Item = [Option<usize>; 4]>> {
         let ties = || self.pairs.iter().filter(|pair| pair.ties_frames());
         let is_new = |pair: &Pair| pair.resists() && !network.joins(&pair.frames);
-        ties()
-            .any(is_new)
-            .then(|| ties().filter(|pair| pair.resists() || pair.is_near()).map(|pair| pair.frames))
+        let passages = || self.passages.ties(assembly);
+        let any = ties().any(is_new) || passages().any(|frames| !network.joins(&frames));
+        any.then(|| {
+            let touching = ties().filter(|pair| pair.resists() || pair.is_near());
+            touching.map(|pair| pair.frames).chain(passages())
+        })
     }
 
     /// What part of the step that the linear system gives leaves what slides near to where it was linearised.

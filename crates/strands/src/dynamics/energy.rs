@@ -1,7 +1,7 @@
 //! Where the energy of what moves is, and what holds it.
 
-use super::Simulation;
 use super::newton::RodSystem;
+use super::{Simulation, passages};
 use crate::assembly::Member;
 use crate::math::{Pose, Vec3, Vec6, Wrench};
 use crate::rod::{NodeInertia, exponents};
@@ -60,6 +60,7 @@ impl Simulation {
             }
             load += strand.problem.loads.energy(poses);
         }
+        elastic += passages::elastic(&self.assembly, &state.passages);
         for (body, pose) in self.assembly.bodies.iter().zip(&state.poses[self.assembly.first_body()..]) {
             load -= body.load.linear.dot(pose.position);
         }
@@ -156,7 +157,7 @@ impl Simulation {
         for (frame, inertia) in self.work.inertia.iter().enumerate() {
             power.dissipated += self.settings.mass_damping * inertia.twice_energy(stage.velocity(frame));
         }
-        power.dissipated += self.work.contacts.power();
+        power.dissipated += self.work.contacts.power(self.work.stage.of_rate);
         let drags = stage.drags.iter().enumerate();
         power.dissipated -= drags.map(|(frame, force)| force.dot(stage.velocity(frame).linear)).sum::<f64>();
         power

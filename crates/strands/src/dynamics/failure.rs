@@ -128,6 +128,27 @@ pub enum SimulationError {
         /// Of what.
         between: [Toucher; 2],
     },
+    /// A state has a passage through what there is not.
+    #[error(
+        "in the state rod {rod} passes at s = {at} m through an eyelet or a hole that there is not: give a state of the same rods and obstacles"
+    )]
+    UnknownPassage {
+        /// Which rod.
+        rod: usize,
+        /// Where along it, m.
+        at: f64,
+    },
+    /// An eyelet is of a rod or a body that there is not, or beyond its rod's ends.
+    #[error(
+        "eyelet {0} is not about a place of a rod, between its ends, in the world or on a body: put it there"
+    )]
+    NoEyelet(usize),
+    /// Eyelets act where surfaces touch only.
+    #[error("there are eyelets, and nothing touches: say how surfaces do")]
+    EyeletsWithoutContact,
+    /// Of what a rod is inside there is no surface to pierce.
+    #[error("obstacle {0} is a bore, and tissue is what an end goes into: give it another shape")]
+    BoreOfTissue(usize),
     /// Surfaces pass into each other where all starts.
     #[error("where all starts {} passes into {}: put them apart", between[0], between[1])]
     Overlap {

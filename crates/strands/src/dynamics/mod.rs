@@ -18,6 +18,7 @@ mod midpoint;
 mod near;
 mod newton;
 mod pair;
+mod passages;
 mod piece;
 mod stage;
 mod start;
@@ -268,6 +269,10 @@ impl Simulation {
         if let Some(contact) = state.contacts.iter().find(|contact| !contact.between.iter().all(known)) {
             return Err(SimulationError::UnknownContact { between: contact.between });
         }
+        if let Some(passage) = state.passages.iter().find(|passage| !passages::is_of(&self.assembly, passage))
+        {
+            return Err(SimulationError::UnknownPassage { rod: passage.rod, at: passage.at });
+        }
         if !state.can_begin() {
             return Err(SimulationError::NotFinite);
         }
@@ -335,6 +340,7 @@ fn check(assembly: &Assembly, settings: &Settings) -> Result<(), SimulationError
     setting("the tolerance", tolerance, positive(tolerance), "greater than 0")?;
     let not_negative = |value: f64| value >= 0.0 && value.is_finite();
     setting("the damping of mass", mass_damping, not_negative(mass_damping), "0 or more")?;
+    passages::check(assembly)?;
     if assembly.surfaces.is_some() {
         if integrator != Integrator::ImplicitEuler {
             return Err(SimulationError::NoContactBy(integrator.name()));

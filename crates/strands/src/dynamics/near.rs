@@ -1,6 +1,7 @@
 //! What may touch while frames stay near where they are: elements of rods, and they and pieces of obstacles.
 
 use super::pair::Pair;
+use super::passages::Inside;
 use crate::assembly::{Assembly, Member};
 use crate::contact::{Aabb, Ends, Kind, Nearest, Part, Toucher, Tree};
 use crate::math::{Pose, Vec3};
@@ -70,6 +71,8 @@ pub(super) struct Near {
     other: Other,
     /// Whether their pairs are looked at.
     pub met: bool,
+    /// Whether the piece is inside of what it would touch, by a hole.
+    out: bool,
 }
 
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
@@ -131,7 +134,12 @@ impl Neighbours {
         for (a, piece) in pieces.iter().enumerate() {
             tree.overlapping(&boxes[a], |b| {
                 if b > a && piece.may_touch(&pieces[b], tied) {
-                    near.push(Near { piece: a as u32, other: Other::Piece(b as u32), met: false });
+                    near.push(Near {
+                        piece: a as u32,
+                        other: Other::Piece(b as u32),
+                        met: false,
+                        out: false,
+                    });
                 }
             });
         }
@@ -143,7 +151,12 @@ impl Neighbours {
             };
             for (a, piece) in pieces.iter().enumerate().filter(|(_, piece)| !is_tied(piece.rod)) {
                 let mut meets = |wall: usize| {
-                    near.push(Near { piece: a as u32, other: Other::Wall(wall as u32), met: false });
+                    near.push(Near {
+                        piece: a as u32,
+                        other: Other::Wall(wall as u32),
+                        met: false,
+                        out: false,
+                    });
                 };
                 let about = match side.frame {
                     None => boxes[a],
@@ -164,6 +177,27 @@ impl Neighbours {
             }
         }
         near.sort_unstable();
+    }
+
+    /// Leaves out what is inside of obstacles, by holes, and what beside it is still sunk into them.
+    pub fn leave_out(&mut self, inside: &[Inside], poses: &[Pose]) {
+        let Self { pieces, walls, near, .. } = self;
+        for near in near {
+            near.out = false;
+            let (piece, Other::Wall(wall)) = (&pieces[near.piece as usize], near.other) else { continue };
+            let wall = &walls[wall as usize];
+            let own = |of: &&Inside| of.rod == piece.rod && wall.toucher.obstacle() == Some(of.obstacle);
+            let mut own = inside.iter().filter(own).peekable();
+            if own.peek().is_none() {
+                continue;
+            }
+            let beside = BETWEEN * piece.radius;
+            near.out = own.any(|of| Piece::between(piece.along, of.along) < beside);
+            if !near.out {
+                let sinks = |pair: Pair| near.out |= pair.gap(poses).is_some_and(|gap| gap <= 0.0);
+                piece.pairs_with_wall(wall, sinks);
+            }
+        }
     }
 
     fn make(&mut self, assembly: &Assembly) {
@@ -244,27 +278,16 @@ impl Neighbours {
     /// What part of the way from some frames to others is where it is known what may touch.
     pub fn known_part(&self, from: &[Pose], to: &[Pose]) -> f64 {
         let part = |i: usize| {
-            let moved = self.moved(i, &from[i], &to[i]);
-            let left = 0.5 * self.reach[i] - self.moved(i, &self.origin[i], &from[i]);
-            if moved <= left { 1.0 } else { left.max(0.0) / moved }
+            let goes = moved(self.extent[i], &from[i], &to[i]);
+            let left = 0.5 * self.reach[i] - moved(self.extent[i], &self.origin[i], &from[i]);
+            if goes <= left { 1.0 } else { left.max(0.0) / goes }
         };
         (0..self.origin.len()).map(part).fold(1.0, f64::min)
     }
 
-    /// By how much at most what moves with a frame has moved.
-    fn moved(&self, frame: usize, from: &Pose, to: &Pose) -> f64 {
-        let shift = (to.position - from.position).norm();
-        let extent = self.extent[frame];
-        if extent == 0.0 {
-            return shift;
-        }
-        let turns = |k: usize| (to.rotation.cols[k] - from.rotation.cols[k]).norm();
-        shift + extent * (turns(0) + turns(1) + turns(2))
-    }
-
     /// Whether a frame is further from where it was than such a part of its reach.
     fn have_moved(&self, places: &[Pose], poses: &[Pose], part: f64) -> bool {
-        let far = |(i, pose): (usize, &Pose)| self.moved(i, &places[i], pose) > part * self.reach[i];
+        let far = |(i, pose): (usize, &Pose)| moved(self.extent[i], &places[i], pose) > part * self.reach[i];
         poses.iter().enumerate().any(far)
     }
 
@@ -283,7 +306,7 @@ impl Neighbours {
     pub fn met(&mut self, poses: &[Pose], mut pair: impl FnMut(Pair, [Option<usize>; 2], Option<f64>)) {
         self.take_middles(poses);
         let Self { pieces, walls, near, middles, .. } = self;
-        for near in near.iter_mut().filter(|near| !near.met) {
+        for near in near.iter_mut().filter(|near| !near.met && !near.out) {
             let piece = &pieces[near.piece as usize];
             let (middle, half) = middles[near.piece as usize];
             let range = half + (1.0 + RANGE) * piece.radius;
@@ -325,14 +348,14 @@ impl Neighbours {
     /// What part of the way from some frames to others surfaces allow, where it is known what may touch.
     pub fn free_part(&mut self, from: &[Pose], to: &[Pose]) -> f64 {
         self.take_middles(from);
-        let Self { pieces, walls, near, middles, shifts, .. } = self;
+        let Self { pieces, walls, near, middles, shifts, extent, .. } = self;
         shifts.clear();
         shifts.extend(pieces.iter().map(|piece| {
             let [a, b] = piece.frames().map(|i| to[i].position - from[i].position);
             a.dot(a).max(b.dot(b)).sqrt()
         }));
         let mut part = 1.0_f64;
-        for near in near.iter() {
+        for near in near.iter().filter(|near| !near.out) {
             let piece = &pieces[near.piece as usize];
             let (middle, half) = middles[near.piece as usize];
             let shift = shifts[near.piece as usize];
@@ -350,8 +373,9 @@ impl Neighbours {
                 }
                 Other::Wall(wall) => {
                     let wall = &walls[wall as usize];
-                    let still = wall.frame.is_none();
-                    if still && wall.distance(middle, from) > half + piece.radius + shift {
+                    let goes = |frame: usize| moved(extent[frame], &from[frame], &to[frame]);
+                    let shift = shift + wall.frame.map_or(0.0, goes);
+                    if wall.distance(middle, from) > half + piece.radius + shift {
                         continue;
                     }
                     piece.pairs_with_wall(wall, |pair| part = part.min(pair.free_part(from, to)));
@@ -496,6 +520,16 @@ impl Wall {
             }
         }
     }
+}
+
+/// By how much at most what moves with a frame, and is no further from it than so much, has moved.
+fn moved(extent: f64, from: &Pose, to: &Pose) -> f64 {
+    let shift = (to.position - from.position).norm();
+    if extent == 0.0 {
+        return shift;
+    }
+    let turns = |k: usize| (to.rotation.cols[k] - from.rotation.cols[k]).norm();
+    shift + extent * (turns(0) + turns(1) + turns(2))
 }
 
 /// The box about a piece of an obstacle that ends.

@@ -245,9 +245,9 @@ impl Group {
             stage.take_inertia(frame..frame + 1, given.inertia, of, &resistance, (level, slopes));
         }
         self.give_frames(poses);
-        let off = contacts.look(stage, poses);
+        let off = contacts.look(assembly, stage, poses);
         let Some(network) = &mut self.network else { return f64::NAN };
-        let new = contacts.new_ties(network).map(Iterator::collect::<Vec<_>>);
+        let new = contacts.new_ties(assembly, network).map(Iterator::collect::<Vec<_>>);
         if let Some(touching) = new {
             network.tie(&touching);
         }
@@ -280,7 +280,7 @@ impl Group {
                 given.ties,
                 self.rods.iter().map(|system| &system.nodal),
                 poses,
-                contacts.touches(),
+                contacts.touches(assembly, poses),
                 level,
             ),
         )
@@ -370,8 +370,8 @@ impl Group {
         state: &State,
     ) -> bool {
         let Some(surfaces) = &assembly.surfaces else { return true };
-        let friction = surfaces.friction;
-        contacts.begin(assembly, friction, (&state.poses, poses), of_rate, &state.contacts);
+        let (friction, known) = (surfaces.friction, (&state.contacts[..], &state.passages[..]));
+        contacts.begin(assembly, friction, (&state.poses, poses), of_rate, known);
         let free = contacts.free_part(&state.poses, poses);
         if free < 1.0 {
             let part = WITHIN * free;
@@ -383,7 +383,7 @@ impl Group {
             self.meet(assembly, ties, poses);
             self.take_frames(poses);
             // What is held goes another way then.
-            contacts.begin(assembly, friction, (&state.poses, poses), of_rate, &state.contacts);
+            contacts.begin(assembly, friction, (&state.poses, poses), of_rate, known);
         }
         contacts.free_part(&state.poses, poses) == 1.0
     }

@@ -270,7 +270,7 @@ impl Simulation {
 
     /// Ends a step, or a piece of it, where its last stage is.
     pub(super) fn take(&mut self, lost: Power, seconds: f64) {
-        let Self { state, work: Work { groups, stage, poses, contacts, .. }, .. } = self;
+        let Self { assembly, state, work: Work { groups, stage, poses, contacts, .. }, .. } = self;
         state.poses.copy_from_slice(poses);
         for system in groups.iter().flat_map(|group| &group.rods) {
             state.wrenches[system.elements()].copy_from_slice(&system.record.wrenches);
@@ -280,8 +280,13 @@ impl Simulation {
         state.contacts.clear();
         state.contacts.extend(contacts.contacts(poses));
         state.contacts.sort_by_key(|contact| contact.between);
+        if assembly.surfaces.is_some() {
+            state.passages.clear();
+            state.passages.extend(contacts.passages.taken());
+        }
         state.dissipated += lost.dissipated;
         state.worked += lost.worked;
         state.time += seconds;
+        self.pierce();
     }
 }

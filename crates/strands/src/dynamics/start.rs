@@ -42,7 +42,13 @@ impl Simulation {
     fn overlap(&mut self) -> Option<[Toucher; 2]> {
         let Self { assembly, state, work, .. } = self;
         let surfaces = assembly.surfaces.as_ref()?;
-        work.contacts.begin(assembly, surfaces.friction, (&state.poses, &state.poses), 1.0, &[]);
+        work.contacts.begin(
+            assembly,
+            surfaces.friction,
+            (&state.poses, &state.poses),
+            1.0,
+            (&[], &state.passages),
+        );
         work.contacts.overlap(&state.poses)
     }
 

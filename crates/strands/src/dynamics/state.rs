@@ -1,9 +1,10 @@
 //! Where an assembly is, and how it moves.
 
 use super::energy::Power;
+use super::passages;
 use crate::assembly::Assembly;
-use crate::contact::Contact;
-use crate::math::{Pose, Vec6, Wrench};
+use crate::contact::{Contact, Passage};
+use crate::math::{Pose, Vec3, Vec6, Wrench};
 
 /// An assembly at some time: all that its future depends on beside what is done to it.
 #[derive(Clone, Debug, PartialEq)]
@@ -31,6 +32,8 @@ pub struct State {
     pub past: Past,
     /// What touches, where a stage was solved last.
     pub contacts: Vec<Contact>,
+    /// What rods pass through.
+    pub passages: Vec<Passage>,
 }
 
 /// What an integrator looks back on.
@@ -84,6 +87,7 @@ impl State {
             next_step,
             past: Past::None,
             contacts: Vec::new(),
+            passages: passages::of_eyelets(assembly),
         }
     }
 
@@ -115,8 +119,11 @@ impl State {
             self.contacts.iter().flat_map(|contact| [contact.point, contact.normal, contact.force]);
         let forces =
             contacts.flat_map(|part| part.to_array()).chain(self.contacts.iter().map(|contact| contact.gap));
+        let passages = self.passages.iter().flat_map(|passage| {
+            [passage.place, passage.force].into_iter().flat_map(Vec3::to_array).chain([passage.at])
+        });
         let numbers = numbers.chain(columns.flat_map(|column| column.to_array()));
-        numbers.chain(sixes).chain(forces).all(f64::is_finite) && self.next_step > 0.0
+        numbers.chain(sixes).chain(forces).chain(passages).all(f64::is_finite) && self.next_step > 0.0
     }
 
     /// Whether it is of so many frames and elements.

@@ -6,7 +6,7 @@ use crate::write::Shape;
 use crate::write::json::ReactionAnswer;
 use indexmap::IndexMap;
 use serde::Serialize;
-use strands::contact::{Contact, Toucher};
+use strands::contact::{Contact, Passage, Through, Toucher};
 
 /// How a simulation went.
 #[derive(Clone, Debug, PartialEq)]
@@ -52,6 +52,8 @@ struct FrameAnswer<'a> {
     bodies: IndexMap<&'a str, BodyAnswer>,
     #[serde(skip_serializing_if = "Vec::is_empty")]
     contacts: Vec<ContactAnswer<'a>>,
+    #[serde(skip_serializing_if = "Vec::is_empty")]
+    passages: Vec<PassageAnswer<'a>>,
 }
 
 #[derive(Serialize)]
@@ -95,6 +97,23 @@ struct ContactAnswer<'a> {
 }
 
 #[derive(Serialize)]
+struct PassageAnswer<'a> {
+    through: ThroughAnswer<'a>,
+    rod: &'a str,
+    s: f64,
+    point: [f64; 3],
+    force: [f64; 3],
+}
+
+#[derive(Serialize)]
+#[serde(untagged)]
+enum ThroughAnswer<'a> {
+    Eyelet { eyelet: usize },
+    Obstacle { obstacle: usize },
+    Body { body: &'a str },
+}
+
+#[derive(Serialize)]
 #[serde(untagged)]
 enum ToucherAnswer<'a> {
     Element { rod: &'a str, element: usize },
@@ -111,7 +130,9 @@ enum ToucherAnswer<'a> {
 /// A rod has at its nodes `s` (m), `position` (m), `orientation` (quaternion, w first), `velocity` (m/s, world axes) and `angular_velocity` (rad/s, the
 /// node's own axes); at its elements `strain` and `stress` as [`json`](fn@crate::write::json) has them; and, where they are known, its `reactions`. Where there
 /// are `bodies`, each has the four of a node. Where surfaces touch there are `contacts`, each with what it is `between` (a `rod` and its `element` or `node`, the number
-/// of an `obstacle`, or a `body`), its `point` (m), the `normal` from the second to the first, the `gap` (m) and the `force` of the second on the first (N).
+/// of an `obstacle`, or a `body`), its `point` (m), the `normal` from the second to the first, the `gap` (m) and the `force` of the second on the first (N). Where
+/// rods pass through something there are `passages`, each with what it is `through` (the number of an `eyelet` or an `obstacle`, or a `body`), the `rod`, how far along
+/// it the hole is (`s`, m), the `point` where it is when nothing pulls at it (m), and its `force` on the rod (N).
 pub fn motion_json(model: &Model, frames: &[Frame], ran: &Ran) -> String {
     let (status, reason) = match &ran.end {
         End::Finished => ("finished", None),
@@ -143,6 +164,7 @@ fn answer<'a>(model: &'a Model, frame: &'a Frame) -> FrameAnswer<'a> {
             .collect(),
         bodies: frame.bodies.iter().map(|moved| (moved.name.as_str(), body(moved))).collect(),
         contacts: frame.contacts.iter().map(|of| contact(model, of)).collect(),
+        passages: frame.passages.iter().map(|of| passage(model, frame, of)).collect(),
     }
 }
 
@@ -167,6 +189,23 @@ fn body(moved: &MovedBody) -> BodyAnswer {
         velocity: moved.velocity.linear.to_array(),
         angular_velocity: moved.velocity.angular.to_array(),
     }
+}
+
+fn passage<'a>(model: &'a Model, frame: &Frame, passage: &Passage) -> PassageAnswer<'a> {
+    let Passage { rod, at, place, force, .. } = *passage;
+    let point = match passage.body {
+        Some(body) => frame.bodies[body].pose.position + frame.bodies[body].pose.rotation * place,
+        None => place,
+    };
+    let through = match passage.through {
+        Through::Eyelet(eyelet) => ThroughAnswer::Eyelet { eyelet },
+        Through::Into(obstacle, ..) | Through::OutOf(obstacle, _) => match model.body_of_surface(obstacle) {
+            Some(body) => ThroughAnswer::Body { body: &body.name },
+            None => ThroughAnswer::Obstacle { obstacle },
+        },
+    };
+    let (point, force) = (point.to_array(), force.to_array());
+    PassageAnswer { through, rod: &model.rods[rod].name, s: at, point, force }
 }
 
 fn contact<'a>(model: &'a Model, contact: &Contact) -> ContactAnswer<'a> {

@@ -16,7 +16,7 @@ pub use usda::motion_usda;
 
 use super::Shape;
 use crate::model::Model;
-use strands::contact::Contact;
+use strands::contact::{Contact, Passage};
 use strands::math::{Pose, Strain, Stress, Vec6, Wrench};
 use strands::rod::Rod;
 use strands::statics::Reaction;
@@ -32,6 +32,8 @@ pub struct Frame {
     pub bodies: Vec<MovedBody>,
     /// What touches.
     pub contacts: Vec<Contact>,
+    /// What rods pass through.
+    pub passages: Vec<Passage>,
     /// Where the energy of all of them is.
     pub energy: FrameEnergy,
     /// Newton iterations since the frame before, of all together.

@@ -10,8 +10,12 @@ use crate::rod::{Kinematics, Material, Order, Rod};
 use crate::statics::{Problem, Support};
 
 pub(super) const RADIUS: f64 = 1e-3;
-const FLOOR: Obstacle =
-    Obstacle { shape: Shape::Plane { point: Vec3::ZERO, normal: Vec3::X }, friction: None, body: None };
+const FLOOR: Obstacle = Obstacle {
+    shape: Shape::Plane { point: Vec3::ZERO, normal: Vec3::X },
+    friction: None,
+    body: None,
+    tissue: None,
+};
 
 pub(super) const EULER: Settings = Settings {
     integrator: Integrator::ImplicitEuler,
@@ -162,6 +166,7 @@ fn a_rod_comes_to_rest_across_another_and_on_a_ball() {
         shape: Shape::Capsule { ends: [Vec3::new(0.0, 0.03, 0.003); 2], radius: 1e-3 },
         friction: Some(1.0),
         body: None,
+        tissue: None,
     };
     let assembly = Assembly {
         strands: vec![held.into(), falls.into()],
@@ -350,6 +355,7 @@ fn a_rod_rests_along_a_long_obstacle_and_in_a_valley_of_two() {
             shape: Shape::Capsule { ends: [Vec3::new(0.0, y, -0.05), Vec3::new(0.0, y, 0.15)], radius: 2e-3 },
             friction: None,
             body: None,
+            tissue: None,
         };
         let assembly = Assembly {
             surfaces: Some(Surfaces { friction: 0.3 }),

@@ -2,6 +2,7 @@ mod consistent;
 mod contact;
 mod held;
 mod network;
+mod passages;
 mod surfaces;
 
 use super::{Integrator, Settings, Simulation, Start};

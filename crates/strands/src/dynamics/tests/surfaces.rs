@@ -13,7 +13,7 @@ use std::sync::Arc;
 const RESTS: f64 = 0.016;
 
 fn touched(problem: Problem, shape: Shape) -> Assembly {
-    let obstacle = Obstacle { shape, friction: None, body: None };
+    let obstacle = Obstacle { shape, friction: None, body: None, tissue: None };
     Assembly { surfaces: Some(Surfaces { friction: 0.3 }), obstacles: vec![obstacle], ..problem.into() }
 }
 
@@ -125,7 +125,7 @@ fn a_ball_falls_onto_two_rods_and_rests_between_them() {
         strands,
         bodies: vec![ball],
         surfaces: Some(Surfaces { friction: 0.3 }),
-        obstacles: vec![Obstacle { shape, friction: None, body: Some(0) }],
+        obstacles: vec![Obstacle { shape, friction: None, body: Some(0), tissue: None }],
         ..Assembly::default()
     };
     let simulation = after(assembly, 400);
@@ -155,6 +155,7 @@ fn rods_that_are_tied_touch_what_they_are_not_tied_to() {
             },
             friction: None,
             body: None,
+            tissue: None,
         }],
         ..Assembly::default()
     };
