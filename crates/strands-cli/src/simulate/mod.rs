@@ -109,6 +109,7 @@ impl Plan {
         let start = match dynamics.start.as_deref().unwrap_or("equilibrium") {
             "equilibrium" => Start::Equilibrium,
             "rest" => Start::Rest,
+            "initial" => model.initial(),
             file => saved(model, &source.beside(file))?,
         };
         let positive = |name: &str, value: f64| {
@@ -148,7 +149,7 @@ fn fault_of(integrator: Integrator, model: &Model) -> Option<String> {
 fn saved(model: &Model, path: &Path) -> Result<Start, Failure> {
     let text = std::fs::read_to_string(path).map_err(|error| {
         Failure::bad(format!(
-            "dynamics.start: {} cannot be read ({error}): give \"equilibrium\", \"rest\" or the file of a saved state",
+            "dynamics.start: {} cannot be read ({error}): give \"equilibrium\", \"rest\", \"initial\" or the file of a saved state",
             path.display()
         ))
     })?;
@@ -188,7 +189,7 @@ fn with_names(model: &Model, error: &SimulationError) -> String {
         (
             SimulationError::Unfit { .. } | SimulationError::NotFinite | SimulationError::Assembly(_),
             Some(file),
-        ) if !matches!(file.as_str(), "rest" | "equilibrium") => {
+        ) if !matches!(file.as_str(), "rest" | "initial" | "equilibrium") => {
             format!("dynamics.start: {file}: {error}")
         }
         _ => error.to_string(),

@@ -95,7 +95,7 @@ fn estimate(
         coarse.mesh().spans().iter().map(|span| (nodes[span.end], 2 * span.len())).collect();
     let mesh = Mesh::from_pieces(&halved).ok()?;
     let fine = Rod::new(coarse.description().clone(), mesh, coarse.order()).ok()?;
-    let problem = rod.loads.problem(fine, &rod.supports).ok()?;
+    let problem = rod.loads.problem(fine, &rod.supports, rod.initial.as_ref()).ok()?;
     let fine = solve(&problem, settings, Some(&solution.guess), workspace).ok()?;
     let apart = |(i, pose): (usize, &Pose)| {
         let by = pose.between(&fine.poses[2 * i]).log();

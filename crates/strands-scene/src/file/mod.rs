@@ -17,8 +17,8 @@ pub use network::{
     BodyFile, BodyShapeFile, BodyShapeName, BodySupportFile, JointEndFile, JointFile, JointName,
 };
 pub use rod::{
-    DragFile, HelixFile, KinematicsName, MassMatrixName, RestFile, RestSample, RodFile, SectionFile,
-    SectionsFile, ShapeName, StiffnessFile,
+    DragFile, HelixFile, InitialFile, KinematicsName, MassMatrixName, RestFile, RestSample, RodFile,
+    SectionFile, SectionsFile, ShapeName, StiffnessFile,
 };
 pub use settings::{
     DynamicsFile, IntegratorName, JacobianName, MethodName, SchemeName, SolverFile, WindFile,

@@ -5,7 +5,7 @@ use crate::file::IntegratorName;
 use strands::assembly::{Assembly, JointKind, Keyframes, Member, Strand};
 use strands::contact::Obstacle;
 use strands::dynamics::{self, Integrator, Simulation, SimulationError, Start};
-use strands::math::{Vec3, Vec6};
+use strands::math::{Pose, Vec3, Vec6};
 use strands::rod::Kinematics;
 
 /// What generalised-α leaves after a step of a motion that is much faster, where the scene does not say it.
@@ -48,7 +48,13 @@ impl Model {
         self.bodies.iter().filter(|body| body.shape.is_some()).nth(at)
     }
 
-    /// Where all starts. From rest it sets off as the scene says.
+    /// The initial shapes of its rods, where they have one, else the rest shapes, and bodies at rest.
+    pub fn initial(&self) -> Start {
+        let rods = self.rods.iter().flat_map(ModelRod::starts);
+        Start::Shape(rods.chain(self.bodies.iter().map(|body| body.body.pose)).collect())
+    }
+
+    /// Where all starts. From rest, or its initial shapes, it sets off as the scene says.
     ///
     /// # Errors
     /// As [`Simulation::new`].
@@ -57,7 +63,10 @@ impl Model {
         settings: dynamics::Settings,
         start: Start,
     ) -> Result<Simulation, SimulationError> {
-        let sets_off = if matches!(start, Start::Rest) { self.velocities() } else { None };
+        let sets_off = match &start {
+            Start::Rest | Start::Shape(_) => self.velocities(),
+            Start::Equilibrium | Start::State(_) => None,
+        };
         let mut simulation = Simulation::new(self.assembly(), settings, start)?;
         if let Some(velocities) = sets_off {
             simulation.set_velocities(&velocities);
@@ -154,13 +163,20 @@ impl ModelRod {
         }
     }
 
+    /// The frames that motion starts from: of its initial shape, or at rest.
+    pub(crate) fn starts(&self) -> Vec<Pose> {
+        let rod = &self.problem.rod;
+        self.initial.as_ref().map_or_else(|| rod.rest_poses().to_vec(), |initial| initial.poses(rod))
+    }
+
     /// How its supports move, where it is the rod of a number.
     fn moving(&self, rod: usize) -> Vec<Keyframes> {
         let mesh = &self.problem.rod;
+        let unheld = self.starts();
         let moving = self.supports.iter().filter(|held| !held.motion.is_empty());
         let keyframes = moving.filter_map(|held| {
             let node = mesh.mesh().node_at(held.s)?;
-            held.keyframes(Member::Node { rod, node }, mesh.rest_poses()[node])
+            held.keyframes(Member::Node { rod, node }, unheld[node])
         });
         keyframes.collect()
     }

@@ -9,7 +9,7 @@ mod joint;
 mod keyframes;
 mod ties;
 
-pub use body::{Body, ball, block, capsule, cylinder};
+pub use body::{Body, ball, block, capsule, cylinder, ring};
 pub use joint::{Attachment, Joint, JointKind};
 pub use keyframes::Keyframes;
 pub(crate) use ties::{Cluster, Ties};
