@@ -32,7 +32,7 @@ start = "initial"
 }
 
 fn started(model: &Model) -> Simulation {
-    model.simulation(model.motion(), model.initial()).unwrap_or_else(|error| panic!("{error}"))
+    model.simulation(model.motion(), model.start().unwrap()).unwrap_or_else(|error| panic!("{error}"))
 }
 
 /// Points on a quarter of a circle in the plane of y and z.

@@ -75,7 +75,7 @@ fn a_thread_sticks_in_a_ring_until_one_end_is_pulled_harder_by_the_friction_of_h
         [(0.94, false, false), (1.06, true, false), (0.94, false, true), (1.06, true, true)]
     {
         let model = hangs([0.05, 0.05 * ratio * part], is_body);
-        let mut simulation = model.simulation(model.motion(), model.initial()).unwrap();
+        let mut simulation = model.simulation(model.motion(), model.start().unwrap()).unwrap();
         for step in 0..40 {
             simulation.step().unwrap_or_else(|failure| panic!("{part}, step {step}: {failure}"));
         }

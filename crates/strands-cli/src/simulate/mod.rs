@@ -106,11 +106,9 @@ impl Plan {
         if let Some(fault) = fault_of(settings.integrator, model) {
             tell(&format!("note: {fault}; tr_bdf2 and bdf2 do not"));
         }
-        let start = match dynamics.start.as_deref().unwrap_or("equilibrium") {
-            "equilibrium" => Start::Equilibrium,
-            "rest" => Start::Rest,
-            "initial" => model.initial(),
-            file => saved(model, &source.beside(file))?,
+        let start = match (model.start(), &dynamics.start) {
+            (None, Some(file)) => saved(model, &source.beside(file))?,
+            (start, _) => start.unwrap_or(Start::Equilibrium),
         };
         let positive = |name: &str, value: f64| {
             let fits = value > 0.0 && value.is_finite();

@@ -146,6 +146,11 @@ impl Model {
         if self.rods.iter().any(ModelRod::is_tied) { Err(Tied) } else { Ok(()) }
     }
 
+    /// Whether its rods come to rest by moving only: joints tie them, nothing holds one, or surfaces touch.
+    pub fn moves_only(&self) -> bool {
+        self.surfaces.is_some() || self.each_alone().is_err()
+    }
+
     /// The rod of a name.
     pub fn rod(&self, name: &str) -> Option<&ModelRod> {
         self.rods.iter().find(|rod| rod.name == name)

@@ -48,10 +48,20 @@ impl Model {
         self.bodies.iter().filter(|body| body.shape.is_some()).nth(at)
     }
 
-    /// The initial shapes of its rods, where they have one, else the rest shapes, and bodies at rest.
-    pub fn initial(&self) -> Start {
+    /// Where its `[dynamics]` says that motion starts, and in equilibrium where they say nothing; `None` where they name the file of a saved state.
+    pub fn start(&self) -> Option<Start> {
+        match self.dynamics.start.as_deref().unwrap_or("equilibrium") {
+            "equilibrium" => Some(Start::Equilibrium),
+            "rest" => Some(Start::Rest),
+            "initial" => Some(Start::Shape(self.starts())),
+            _ => None,
+        }
+    }
+
+    /// The frames of the initial shapes of rods, or at rest where they have none, and of bodies at rest.
+    pub(crate) fn starts(&self) -> Vec<Pose> {
         let rods = self.rods.iter().flat_map(ModelRod::starts);
-        Start::Shape(rods.chain(self.bodies.iter().map(|body| body.body.pose)).collect())
+        rods.chain(self.bodies.iter().map(|body| body.body.pose)).collect()
     }
 
     /// Where all starts. From rest, or its initial shapes, it sets off as the scene says.
@@ -64,7 +74,8 @@ impl Model {
         start: Start,
     ) -> Result<Simulation, SimulationError> {
         let sets_off = match &start {
-            Start::Rest | Start::Shape(_) => self.velocities(),
+            Start::Rest => self.velocities(),
+            Start::Shape(shape) => self.velocities_in(shape),
             Start::Equilibrium | Start::State(_) => None,
         };
         let mut simulation = Simulation::new(self.assembly(), settings, start)?;
@@ -120,12 +131,16 @@ impl Model {
     /// [`set_velocities`](Simulation::set_velocities): bodies as they say, rods at rest but for the nodes that joints tie to such a body.
     /// `None` where nothing sets off.
     pub fn velocities(&self) -> Option<Vec<Vec6>> {
+        self.velocities_in(&self.assembly().rest_poses())
+    }
+
+    /// The same where all frames are these.
+    fn velocities_in(&self, rest: &[Pose]) -> Option<Vec<Vec6>> {
         let still = |body: &ModelBody| body.velocity == Vec3::ZERO && body.angular_velocity == Vec3::ZERO;
         if self.bodies.iter().all(still) {
             return None;
         }
         let assembly = self.assembly();
-        let rest = assembly.rest_poses();
         let mut velocities = vec![Vec6::ZERO; rest.len()];
         let first = assembly.first_body();
         for (body, frame) in self.bodies.iter().zip(first..) {

@@ -40,7 +40,12 @@ impl Rods {
     /// Where the scene asks for what there is not, or a rod cannot move.
     pub fn of(model: &Model) -> Result<Self, String> {
         let settings = Settings { tolerance: TOLERANCE, ..model.motion() };
-        let start = start(model)?;
+        let start = model.start().ok_or_else(|| {
+            let file = model.dynamics.start.as_deref().unwrap_or_default();
+            format!(
+                "dynamics.start: the page cannot read {file}; give \"equilibrium\", \"rest\" or \"initial\""
+            )
+        })?;
         let simulation = model.simulation(settings, start).map_err(|error| error.to_string())?;
         let names = model.rods.iter().map(|rod| rod.name.clone()).collect();
         let before = simulation.state().poses.clone();
@@ -210,15 +215,3 @@ impl Rods {
 }
 
 const AT_REST: Step = Step { time: 0.0, seconds: 0.0, iterations: 0, residual: 0.0, pieces: 0 };
-
-/// Where a scene starts.
-fn start(model: &Model) -> Result<Start, String> {
-    match model.dynamics.start.as_deref().unwrap_or("equilibrium") {
-        "equilibrium" => Ok(Start::Equilibrium),
-        "rest" => Ok(Start::Rest),
-        "initial" => Ok(model.initial()),
-        file => Err(format!(
-            "dynamics.start: the page cannot read {file}; give \"equilibrium\", \"rest\" or \"initial\""
-        )),
-    }
-}
