@@ -4,7 +4,7 @@ use std::slice::SliceIndex;
 use strands::assembly::{Member, Strand};
 use strands::contact::Contact;
 use strands::coupling::Grip;
-use strands::dynamics::{Budget, Settings, Simulation, Start, Step};
+use strands::dynamics::{Budget, Settings, Simulation, Step};
 use strands::math::{Pose, Vec3, Wrench};
 use strands::statics::{Energy, Guess, Problem, Reaction, Solution, SolveReport, Support};
 use strands_scene::Model;
