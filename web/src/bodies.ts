@@ -19,6 +19,8 @@ function solid(shape: BodyShape): THREE.BufferGeometry {
       return new THREE.CapsuleGeometry(shape.radius, shape.length, 16, 48).rotateX(Math.PI / 2)
     case 'cylinder':
       return new THREE.CylinderGeometry(shape.radius, shape.radius, shape.length, 48).rotateX(Math.PI / 2)
+    case 'ring':
+      return new THREE.TorusGeometry(shape.radius, shape.wire_radius, 24, 96)
     case 'block':
       return new THREE.BoxGeometry(...shape.size)
   }

@@ -171,7 +171,7 @@ async function open(text: string, name: string, moves?: boolean): Promise<boolea
   mode.show(false)
   readout.clear()
   receive(reply)
-  // A scene that says how it moves is there to move, and rods that are tied can do nothing else.
+  // A scene that says how it moves is there to move, and rods that are tied or touch can do nothing else.
   if (reply.shape.report.moves_only || (moves ?? scene.dynamics)) await setMotion(true, !matchMedia('(prefers-reduced-motion: reduce)').matches)
   return true
 }

@@ -72,11 +72,11 @@ export class MotionMode {
     this.page.covered()
   }
 
-  /** Lets a person end the motion, or not: where rods are tied there is nothing else. */
+  /** Lets a person end the motion, or not: where rods are tied or touch there is nothing else. */
   allowRest(allowed: boolean): void {
     const button = element<HTMLButtonElement>('motion')
     button.disabled = !allowed
-    button.title = allowed ? TOGGLES : 'Rods that are tied move; they come to rest by themselves.'
+    button.title = allowed ? TOGGLES : 'Rods that are tied or touch move; they come to rest by themselves.'
   }
 
   /** Takes hold of a place of what moves. */

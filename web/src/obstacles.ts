@@ -81,6 +81,13 @@ export class Obstacles {
         turn(mesh, axis)
         return mesh
       }
+      case 'ring': {
+        const mesh = new THREE.Mesh(new THREE.TorusGeometry(shape.radius, shape.wire_radius, 24, 96), this.#solid)
+        mesh.position.copy(vector(shape.point))
+        turn(mesh, vector(shape.axis))
+        mesh.castShadow = mesh.receiveShadow = true
+        return mesh
+      }
       case 'mesh': {
         const geometry = new THREE.BufferGeometry()
         geometry.setAttribute('position', new THREE.Float32BufferAttribute(shape.corners, 3))
@@ -124,6 +131,8 @@ function bounds(shape: ObstacleShape): THREE.Box3 | null {
     case 'capsule':
     case 'cylinder':
       return new THREE.Box3().setFromPoints(shape.ends.map(vector)).expandByScalar(shape.radius)
+    case 'ring':
+      return new THREE.Box3().setFromPoints([vector(shape.point)]).expandByScalar(shape.radius + shape.wire_radius)
     case 'mesh':
       return new THREE.Box3().setFromArray(shape.corners)
     case 'plane':

@@ -76,6 +76,7 @@ export type BodyShape =
   | { kind: 'ball'; radius: number }
   | { kind: 'capsule' | 'cylinder'; radius: number; length: number }
   | { kind: 'block'; size: [number, number, number] }
+  | { kind: 'ring'; radius: number; wire_radius: number }
 
 /** A rigid body that moves. */
 export interface RigidBody {
@@ -90,6 +91,7 @@ export type ObstacleShape =
   | { kind: 'plane'; point: Triple; normal: Triple }
   | { kind: 'capsule' | 'cylinder'; ends: [Triple, Triple]; radius: number }
   | { kind: 'tube'; point: Triple; axis: Triple; radius: number }
+  | { kind: 'ring'; point: Triple; axis: Triple; radius: number; wire_radius: number }
   | { kind: 'mesh'; corners: number[]; triangles: number[] }
 
 /** How a motion goes, as the solver reports it. */

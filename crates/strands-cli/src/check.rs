@@ -134,9 +134,10 @@ fn rows(rod: &RodCheck) -> Vec<(&'static str, String)> {
             rows.push(("error", "not estimated: a mesh twice as fine was not solved".into()))
         }
         Trial::Failed { .. } => rows.push(("error", "not estimated: a trial failed".into())),
-        Trial::Tied => {
-            rows.push(("error", "not estimated: joints tie the rod to others, or nothing holds it".into()))
-        }
+        Trial::Tied => rows.push((
+            "error",
+            "not estimated: joints tie the rod to others, nothing holds it, or surfaces touch".into(),
+        )),
     }
     rows
 }

@@ -37,6 +37,10 @@ const SCENES: &[Bundled] = &[
     scene!("hanging_net", "A net that hangs by its corners"),
     scene!("spiders_ring", "A spider on its web"),
     scene!("needle_and_thread", "A needle that hangs on its thread"),
+    scene!("overhand_knot", "A knot to pull tight"),
+    scene!("capstan", "A rope around a post, held by friction"),
+    scene!("rope_pile", "Ropes that fall onto each other"),
+    scene!("twisted_cord", "A cord that is twisted until it coils up"),
 ];
 
 /// All bundled scenes.

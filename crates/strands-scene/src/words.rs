@@ -83,7 +83,7 @@ pub(crate) fn example(key: &str) -> Option<&'static str> {
         "youngs_modulus" => "give it in Pa, as `youngs_modulus = 1.5e9`",
         "density" => "give it in kg/m³, as `density = 910.0` (0 for a weightless material)",
         "shape" => {
-            "give `shape = \"circle\"`, \"annulus\", \"ellipse\" or \"rectangle\"; of a body \"ball\", \"capsule\", \"cylinder\" or \"block\""
+            "give `shape = \"circle\"`, \"annulus\", \"ellipse\" or \"rectangle\"; of a body \"ball\", \"capsule\", \"cylinder\", \"block\" or \"ring\""
         }
         "at" => "give `at = \"start\"`, `at = \"end\"`, or metres from the start",
         "fix" => "say what it holds, as `fix = [\"position\", \"orientation\"]`",

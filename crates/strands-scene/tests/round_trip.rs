@@ -95,6 +95,13 @@ fn rest() -> impl Strategy<Value = RestFile> {
         })
 }
 
+fn initial() -> impl Strategy<Value = InitialFile> {
+    let helix = (number(), number()).prop_map(|(radius, pitch)| HelixFile { radius, pitch });
+    let points = prop::collection::vec(vector(), 0..3);
+    (prop::option::of(points), prop::option::of(word()), prop::option::of(helix), prop::option::of(number()))
+        .prop_map(|(points, csv, helix, twist)| InitialFile { points, csv, helix, twist })
+}
+
 fn quaternion() -> impl Strategy<Value = [f64; 4]> {
     [number(), number(), number(), number()]
 }
@@ -128,10 +135,16 @@ fn support() -> impl Strategy<Value = SupportFile> {
 
 fn body() -> impl Strategy<Value = BodyFile> {
     use BodyShapeName::*;
-    let shape = prop::sample::select(vec![Ball, Capsule, Cylinder, Block]);
+    let shape = prop::sample::select(vec![Ball, Capsule, Cylinder, Block, Ring]);
     let size = || prop::option::of(positive());
-    let shape = (shape, size(), size(), prop::option::of(vector()));
-    let shape = shape.prop_map(|(shape, radius, length, size)| BodyShapeFile { shape, radius, length, size });
+    let shape = (shape, [size(), size(), size()], prop::option::of(vector()));
+    let shape = shape.prop_map(|(shape, [radius, wire_radius, length], size)| BodyShapeFile {
+        shape,
+        radius,
+        wire_radius,
+        length,
+        size,
+    });
     let vectors = || prop::option::of(vector());
     (
         (word(), prop::option::of(shape), size(), size(), vectors()),
@@ -199,7 +212,7 @@ fn rod() -> impl Strategy<Value = RodFile> {
     let base = (prop::option::of(vector()), prop::option::of([number(), number(), number(), number()]));
     (
         (prop::option::of(word()), prop::option::of(positive()), mesh, prop::option::of(sections())),
-        (prop::option::of(kinematics), given, prop::option::of(rest()), base),
+        (prop::option::of(kinematics), given, (prop::option::of(rest()), prop::option::of(initial())), base),
         prop::collection::vec(support(), 0..3),
         prop::collection::vec(load(), 0..3),
         prop::option::of((prop::option::of(number()), prop::option::of(number()))),
@@ -211,7 +224,7 @@ fn rod() -> impl Strategy<Value = RodFile> {
                 (
                     kinematics,
                     (stiffness, mass_per_length, rotational_inertia_per_length),
-                    rest,
+                    (rest, initial),
                     (position, orientation),
                 ),
                 supports,
@@ -231,6 +244,7 @@ fn rod() -> impl Strategy<Value = RodFile> {
                 rest,
                 position,
                 orientation,
+                initial,
                 supports,
                 loads,
                 drag: drag.map(|(linear, quadratic)| DragFile { linear, quadratic }),
@@ -354,12 +368,13 @@ fn obstacle() -> impl Strategy<Value = ObstacleFile> {
         ObstacleName::Capsule,
         ObstacleName::Cylinder,
         ObstacleName::Box,
+        ObstacleName::Ring,
         ObstacleName::Tube,
         ObstacleName::Mesh,
     ]);
     let place = (prop::option::of(vector()), prop::option::of(vector()));
     let turned = prop::option::of([number(), number(), number(), number()]);
-    let sizes = [positive(), positive(), positive(), positive()].map(prop::option::of);
+    let sizes = [positive(), positive(), positive(), positive(), positive()].map(prop::option::of);
     let mesh = (
         prop::option::of(word()),
         prop::option::of(prop::collection::vec(vector(), 0..4)),
@@ -367,13 +382,14 @@ fn obstacle() -> impl Strategy<Value = ObstacleFile> {
     );
     (shape, place, turned, prop::option::of(vector()), sizes, mesh, prop::option::of(tissue())).prop_map(
         |(shape, (position, normal), orientation, size, sizes, (file, corners, triangles), tissue)| {
-            let [radius, length, scale, friction] = sizes;
+            let [radius, wire_radius, length, scale, friction] = sizes;
             ObstacleFile {
                 shape,
                 position,
                 normal,
                 orientation,
                 radius,
+                wire_radius,
                 length,
                 size,
                 file,

@@ -48,13 +48,15 @@ impl Motion {
     }
 
     /// What the bodies look like, as JSON: `[{ name, shape }, …]`. A shape is of the `kind` `ball`, `capsule` or `cylinder`, with its `radius` and, of the
-    /// last two, the `length` along the third axis, or a `block` with its `size`, the edges along its axes, m. A body that has none is a ball of 2,000 kg/m³.
+    /// last two, the `length` along the third axis, a `block` with its `size`, the edges along its axes, or a `ring` about the third axis, with the `radius` of its
+    /// centre line and the `wire_radius`, m. A body that has none is a ball of 2,000 kg/m³.
     pub fn body_shapes(&self) -> String {
         self.moving.bodies.to_string()
     }
 
     /// What the obstacles look like, as JSON: `[shape, …]`. A shape is of the `kind` `plane`, with a `point` and the `normal`; `capsule` or `cylinder`, with the
-    /// `ends` of its axis and the `radius`; `tube`, the inside of one without end, with a `point` and the direction of its `axis`, and its `radius`; or `mesh`, with
+    /// `ends` of its axis and the `radius`; `tube`, the inside of one without end, with a `point` and the direction of its `axis`, and its `radius`; `ring`, with its middle
+    /// as `point`, its `axis`, the `radius` of its centre line and the `wire_radius`; or `mesh`, with
     /// its `corners`, three numbers each, and the numbers of those of its `triangles`, m. A ball is a capsule whose ends are the same.
     pub fn obstacles(&self) -> String {
         self.moving.obstacles.to_string()

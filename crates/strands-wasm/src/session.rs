@@ -5,9 +5,7 @@ use strands::math::{Pose, Quat, Strain, Wrench};
 use strands::statics::{
     Guess, Problem, Reaction, Solution, SolveReport, Support, Workspace, recall, rest_from, solve,
 };
-use strands_scene::{
-    CouplingFile, FixName, HandFile, Model, ModelRod, Place, Scene, SceneFile, SupportFile, Tied,
-};
+use strands_scene::{CouplingFile, FixName, HandFile, Model, ModelRod, Place, Scene, SceneFile, SupportFile};
 
 use crate::hand::{HandMode, coupling_for, reachable};
 use crate::motion::Rods;
@@ -52,7 +50,7 @@ impl State {
         let rod = &scene.model.rods[held];
         let hand = tip(&solutions[held]);
         let coupling = rod.hand.unwrap_or_else(|| coupling_for(rod));
-        let leads = rod.problem.end.fixed == [true; 6] && scene.model.each_alone().is_ok();
+        let leads = rod.problem.end.fixed == [true; 6] && !scene.model.moves_only();
         let mode = if leads { HandMode::Pose } else { HandMode::Scene };
         let outcome = Outcome { report: solutions[held].report.clone(), reason: None, saturated: false };
         let home = Some(Start::new(&solutions[held], hand, false));
@@ -84,9 +82,10 @@ impl State {
     fn put(&mut self, scene: Scene, guess: Option<Guess>) -> Result<(), String> {
         // A text that went through the page may have its rods in another order.
         let held = scene.model.rods.iter().position(|rod| rod.name == self.rod().name).unwrap_or(0);
-        let solutions = match scene.model.each_alone() {
-            Ok(()) => self.solve_anew(&scene.model, held, guess)?,
-            Err(Tied) => solve_all(&scene.model, &mut self.workspace)?,
+        let solutions = if scene.model.moves_only() {
+            solve_all(&scene.model, &mut self.workspace)?
+        } else {
+            self.solve_anew(&scene.model, held, guess)?
         };
         self.held = held;
         self.scene = scene;
@@ -192,9 +191,9 @@ impl State {
         Ok(())
     }
 
-    /// Whether joints tie its rods, so that they come to rest by moving alone, and the shapes are those that they start to move from.
+    /// Whether its rods come to rest by moving only, and the shapes are those that they start to move from.
     pub fn moves_only(&self) -> bool {
-        self.scene.model.each_alone().is_err()
+        self.scene.model.moves_only()
     }
 
     pub fn file(&self) -> &SceneFile {
@@ -477,15 +476,15 @@ fn checked(hand: &HandFile) -> Result<VirtualCoupling, String> {
 pub fn read(text: &str, file_name: &str) -> Result<Scene, String> {
     let mut scene = Scene::parse(text, file_name, None).map_err(|error| error.to_string())?;
     // A tolerance needs where each rod rests.
-    if scene.model.each_alone().is_ok() {
+    if !scene.model.moves_only() {
         scene.model = scene.model.refined().map_err(|error| error.to_string())?;
     }
     Ok(scene)
 }
 
-/// Where each rod rests; rods that are tied are where they start to move.
+/// Where each rod rests; rods that come to rest by moving only are where they start to.
 fn solve_all(model: &Model, workspace: &mut Workspace) -> Result<Vec<Solution>, String> {
-    if model.each_alone().is_err() {
+    if model.moves_only() {
         return Ok(Rods::of(model)?.shapes());
     }
     let solved = model.rods.iter().map(|rod| {

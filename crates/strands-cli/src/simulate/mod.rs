@@ -106,10 +106,9 @@ impl Plan {
         if let Some(fault) = fault_of(settings.integrator, model) {
             tell(&format!("note: {fault}; tr_bdf2 and bdf2 do not"));
         }
-        let start = match dynamics.start.as_deref().unwrap_or("equilibrium") {
-            "equilibrium" => Start::Equilibrium,
-            "rest" => Start::Rest,
-            file => saved(model, &source.beside(file))?,
+        let start = match (model.start(), &dynamics.start) {
+            (None, Some(file)) => saved(model, &source.beside(file))?,
+            (start, _) => start.unwrap_or(Start::Equilibrium),
         };
         let positive = |name: &str, value: f64| {
             let fits = value > 0.0 && value.is_finite();
@@ -148,7 +147,7 @@ fn fault_of(integrator: Integrator, model: &Model) -> Option<String> {
 fn saved(model: &Model, path: &Path) -> Result<Start, Failure> {
     let text = std::fs::read_to_string(path).map_err(|error| {
         Failure::bad(format!(
-            "dynamics.start: {} cannot be read ({error}): give \"equilibrium\", \"rest\" or the file of a saved state",
+            "dynamics.start: {} cannot be read ({error}): give \"equilibrium\", \"rest\", \"initial\" or the file of a saved state",
             path.display()
         ))
     })?;
@@ -188,7 +187,7 @@ fn with_names(model: &Model, error: &SimulationError) -> String {
         (
             SimulationError::Unfit { .. } | SimulationError::NotFinite | SimulationError::Assembly(_),
             Some(file),
-        ) if !matches!(file.as_str(), "rest" | "equilibrium") => {
+        ) if !matches!(file.as_str(), "rest" | "initial" | "equilibrium") => {
             format!("dynamics.start: {file}: {error}")
         }
         _ => error.to_string(),

@@ -140,6 +140,7 @@ fn solid(
 fn shape(document: &Document, path: &KeyPath, written: &BodyShapeFile) -> Result<BodyShape, SceneError> {
     let sizes = [
         ("radius", written.radius.is_some()),
+        ("wire_radius", written.wire_radius.is_some()),
         ("length", written.length.is_some()),
         ("size", written.size.is_some()),
     ];
@@ -148,6 +149,7 @@ fn shape(document: &Document, path: &KeyPath, written: &BodyShapeFile) -> Result
         BodyShapeName::Capsule => ("a capsule", &["radius", "length"]),
         BodyShapeName::Cylinder => ("a cylinder", &["radius", "length"]),
         BodyShapeName::Block => ("a block", &["size"]),
+        BodyShapeName::Ring => ("a ring", &["radius", "wire_radius"]),
     };
     let given = Sizes::new(document, path, of, &sizes)?;
     let (radius, length) =
@@ -156,6 +158,10 @@ fn shape(document: &Document, path: &KeyPath, written: &BodyShapeFile) -> Result
         BodyShapeName::Ball => BodyShape::Ball { radius: radius()? },
         BodyShapeName::Capsule => BodyShape::Capsule { radius: radius()?, length: length()? },
         BodyShapeName::Cylinder => BodyShape::Cylinder { radius: radius()?, length: length()? },
+        BodyShapeName::Ring => {
+            let [radius, wire_radius] = given.ring(written.radius, written.wire_radius)?;
+            BodyShape::Ring { radius, wire_radius }
+        }
         BodyShapeName::Block => {
             let size = written.size.ok_or_else(|| given.missing("size"))?;
             for (i, edge) in size.into_iter().enumerate() {

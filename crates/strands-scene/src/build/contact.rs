@@ -5,6 +5,7 @@ use super::{Context, mesh, passage};
 use crate::document::{Document, KeyPath};
 use crate::error::SceneError;
 use crate::file::{ObstacleFile, ObstacleName, SceneFile};
+use crate::model::Model;
 use std::path::Path;
 use std::sync::Arc;
 use strands::contact::{Mesh, Obstacle, Shape, Surfaces};
@@ -36,6 +37,7 @@ fn obstacle(context: &Context, path: &KeyPath, written: &ObstacleFile) -> Result
         ("normal", written.normal.is_some()),
         ("orientation", written.orientation.is_some()),
         ("radius", written.radius.is_some()),
+        ("wire_radius", written.wire_radius.is_some()),
         ("length", written.length.is_some()),
         ("size", written.size.is_some()),
         ("file", written.file.is_some()),
@@ -49,6 +51,7 @@ fn obstacle(context: &Context, path: &KeyPath, written: &ObstacleFile) -> Result
         ObstacleName::Capsule => ("a capsule", &["position", "orientation", "radius", "length"]),
         ObstacleName::Cylinder => ("a cylinder", &["position", "orientation", "radius", "length"]),
         ObstacleName::Box => ("a box", &["position", "orientation", "size"]),
+        ObstacleName::Ring => ("a ring", &["position", "orientation", "radius", "wire_radius"]),
         ObstacleName::Tube => ("a tube", &["position", "orientation", "radius"]),
         ObstacleName::Mesh => {
             ("a mesh", &["position", "orientation", "file", "scale", "corners", "triangles"])
@@ -76,6 +79,10 @@ fn obstacle(context: &Context, path: &KeyPath, written: &ObstacleFile) -> Result
         ObstacleName::Sphere => Shape::Capsule { ends: [position; 2], radius: radius()? },
         ObstacleName::Capsule => Shape::Capsule { ends: ends()?, radius: radius()? },
         ObstacleName::Cylinder => Shape::Cylinder { ends: ends()?, radius: radius()? },
+        ObstacleName::Ring => {
+            let [radius, wire_radius] = sizes.ring(written.radius, written.wire_radius)?;
+            Shape::Ring { middle: position, axis: rotation.cols[2], radius, wire_radius }
+        }
         ObstacleName::Tube => Shape::Bore { point: position, axis: rotation.cols[2], radius: radius()? },
         ObstacleName::Box => {
             let size = written.size.ok_or_else(|| sizes.missing("size"))?;
@@ -101,6 +108,34 @@ fn obstacle(context: &Context, path: &KeyPath, written: &ObstacleFile) -> Result
         written => written.as_ref().map(|written| passage::tissue(context, path, written)).transpose()?,
     };
     Ok(Obstacle { shape, friction, body: None, tissue })
+}
+
+/// Checks that rods that begin within a ring fit through it.
+pub(super) fn check_rings(document: &Document, model: &Model) -> Result<(), SceneError> {
+    for (i, obstacle) in model.obstacles.iter().enumerate() {
+        let Shape::Ring { middle, axis, radius, wire_radius } = &obstacle.shape else { continue };
+        let hole = radius - wire_radius;
+        let is_through = |pair: &[Pose]| {
+            let [from, to] = [pair[0].position - *middle, pair[1].position - *middle];
+            let [before, after] = [from.dot(*axis), to.dot(*axis)];
+            let crossing = from + (to - from) * (before / (before - after));
+            (before < 0.0) != (after < 0.0) && crossing.norm() < *radius
+        };
+        for rod in &model.rods {
+            let thickest = rod.problem.rod.half_extent().iter().flatten().fold(0.0, |a: f64, b| a.max(*b));
+            if thickest < hole || !rod.starts().windows(2).any(is_through) {
+                continue;
+            }
+            let message = format!(
+                "rod `{}`, which has a radius of {thickest} m, goes through a hole of {hole:.3e} m",
+                rod.name
+            );
+            let error = document.error(&KeyPath::of("obstacles").index(i).key("radius"), message);
+            let least = thickest + wire_radius;
+            return Err(error.mend(format!("the radius of the hole is `radius` less `wire_radius`: give a `radius` of more than {least:.3e}")));
+        }
+    }
+    Ok(())
 }
 
 /// A mesh from its file or as it is written, put where it is.

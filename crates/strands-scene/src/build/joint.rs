@@ -7,7 +7,7 @@ use crate::file::{JointEndFile, JointFile, JointName};
 use crate::model::Model;
 use crate::words;
 use strands::assembly::{Assembly, AssemblyError, Joint, JointKind, Member};
-use strands::math::Vec3;
+use strands::math::{Pose, Vec3};
 
 /// Makes sure that joints name rods and bodies that there are.
 pub(super) fn check_names(context: &Context) -> Result<(), SceneError> {
@@ -49,29 +49,29 @@ pub(super) fn places(context: &Context, name: &str, length: f64) -> Result<Vec<f
 
 /// The joints of a scene, whose rods and bodies are those of a model.
 pub(super) fn joints(context: &Context, model: &Model) -> Result<Vec<Joint>, SceneError> {
-    let mut assembly = model.assembly();
+    let (mut assembly, shape) = (model.assembly(), model.starts());
     for (i, written) in context.file.joints.iter().enumerate() {
         let path = path(i);
         let end = |end: usize| member(context, &path.key("between").index(end), &written.between[end], model);
         let members = [end(0)?, end(1)?];
         let position = position(context, &path, written, &members)?;
         let (kind, axis) = kind(context, &path, written)?;
-        let joint = Joint::at_rest(&assembly, kind, members, position, axis)
-            .map_err(|error| refused(context, error, i, &assembly, members))?;
+        let joint = Joint::in_shape(&assembly, &shape, kind, members, position, axis)
+            .map_err(|error| refused(context, error, i, (&assembly, &shape), members))?;
         assembly.joints.push(joint);
     }
-    if let Err(error) = assembly.check() {
+    if let Err(error) = assembly.check_in_shape(&shape) {
         // The first joint that does not go with those before it.
         let joints = core::mem::take(&mut assembly.joints);
         let numbers: Vec<usize> = (1..joints.len()).collect();
         let first = numbers.partition_point(|many| {
             assembly.joints = joints[..*many].to_vec();
-            assembly.check().is_ok()
+            assembly.check_in_shape(&shape).is_ok()
         });
         assembly.joints = joints[..=first].to_vec();
-        let error = assembly.check().err().unwrap_or(error);
+        let error = assembly.check_in_shape(&shape).err().unwrap_or(error);
         let members = joints[first].between.map(|attachment| attachment.member);
-        return Err(refused(context, error, first, &assembly, members));
+        return Err(refused(context, error, first, (&assembly, &shape), members));
     }
     Ok(assembly.joints)
 }
@@ -164,16 +164,15 @@ fn refused(
     context: &Context,
     error: AssemblyError,
     joint: usize,
-    assembly: &Assembly,
+    (assembly, shape): (&Assembly, &[Pose]),
     members: [Member; 2],
 ) -> SceneError {
     let document = context.document;
     match error {
         AssemblyError::Apart { apart, .. } => {
-            let rest = assembly.rest_poses();
             let at = members.map(|member| {
                 let [x, y, z] =
-                    assembly.frame(member).map_or([0.0; 3], |frame| rest[frame].position.to_array());
+                    assembly.frame(member).map_or([0.0; 3], |frame| shape[frame].position.to_array());
                 format!("[{x:.9}, {y:.9}, {z:.9}]")
             });
             let message =

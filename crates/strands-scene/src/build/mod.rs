@@ -4,6 +4,7 @@ mod body;
 mod check;
 mod contact;
 mod hold;
+mod initial;
 mod joint;
 mod load;
 mod mesh;
@@ -64,6 +65,7 @@ pub(crate) fn model(
     };
     let settings = settings::solver(document, file)?;
     settings::check_motion(document, file)?;
+    initial::check_start(document, file)?;
     let dynamics = file.dynamics.clone().unwrap_or_default();
     let mut rods = Vec::with_capacity(file.rods.len());
     if file.rods.is_empty() {
@@ -90,6 +92,7 @@ pub(crate) fn model(
         settings,
         dynamics,
     };
+    contact::check_rings(document, &model)?;
     model.joints = joint::joints(&context, &model)?;
     model.eyelets = passage::eyelets(&context, &model)?;
     Ok(model)

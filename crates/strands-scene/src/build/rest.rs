@@ -5,7 +5,7 @@ use crate::document::KeyPath;
 use crate::error::SceneError;
 use crate::file::{RestFile, RodFile};
 use strands::math::{Pose, Vec3};
-use strands::rod::{RestShape, RodError};
+use strands::rod::{RestCurve, RestShape, RodError};
 
 /// How far a given length may be from that of the rest shape's points, as a part of it.
 const LENGTH_SLACK: f64 = 1e-3;
@@ -24,9 +24,18 @@ pub(super) enum Written {
 }
 
 /// The unloaded rod as its file describes it.
-pub(super) fn unloaded(context: &Context, path: &KeyPath, rod: &RodFile) -> Result<Unloaded, SceneError> {
+///
+/// `initial` is how long the points are that motion starts from, if it starts from points, m.
+pub(super) fn unloaded(
+    context: &Context,
+    path: &KeyPath,
+    rod: &RodFile,
+    initial: Option<f64>,
+) -> Result<Unloaded, SceneError> {
     let document = context.document;
     let length = rod.length.map(|length| document.positive(&path.key("length"), length)).transpose()?;
+    let written_length = length;
+    let length = length.or(initial);
     let rest = path.key("rest");
     let with_length = |shape: RestShape| match length {
         Some(length) => Ok(Unloaded { shape, length, start: None }),
@@ -57,7 +66,7 @@ pub(super) fn unloaded(context: &Context, path: &KeyPath, rod: &RodFile) -> Resu
         (rest.key("csv"), table::read(document, context.folder, &rest.key("csv"), file)?)
     };
     match written {
-        Written::Points(points) => along_points(context, path, &place, &points, length),
+        Written::Points(points) => along_points(context, path, &place, &points, written_length),
         Written::Samples(samples) => {
             let unloaded = with_length(RestShape::default())?;
             let shape = sampled(context, &place, samples, unloaded.length)?;
@@ -99,25 +108,39 @@ fn along_points(
     points: &[Vec3],
     length: Option<f64>,
 ) -> Result<Unloaded, SceneError> {
-    let document = context.document;
-    let curve = RestShape::polyline(points).map_err(|error| {
+    let curve = curve(context, place, points)?;
+    if let Some(length) = length {
+        as_long(context, &path.key("length"), length, "rest", curve.length)?;
+    }
+    Ok(Unloaded { shape: curve.shape, length: curve.length, start: Some(curve.start) })
+}
+
+/// The line through points.
+pub(super) fn curve(context: &Context, place: &KeyPath, points: &[Vec3]) -> Result<RestCurve, SceneError> {
+    RestShape::polyline(points).map_err(|error| {
         let place = match &error {
             RodError::PointsCoincide { index } | RodError::FoldsBack { index } | RodError::NotFinite { index, .. } => place.index(*index),
             _ => place.clone(),
         };
-        let error = document.error(&place, error.to_string());
+        let error = context.document.error(&place, error.to_string());
         error.mend("give points in metres, each ahead of the one before, as [[0, 0, 0], [0, 0, 0.1], [0, 0.05, 0.2]]")
-    })?;
-    if let Some(length) = length
-        && (length - curve.length).abs() > LENGTH_SLACK * curve.length
-    {
-        let message =
-            format!("the length is {length}, but the rest shape's points are {} m long", curve.length);
-        return Err(document
-            .error(&path.key("length"), message)
-            .mend("leave `length` out: it follows from the points"));
+    })
+}
+
+/// Checks that the rod is as long as the points of a shape of it.
+pub(super) fn as_long(
+    context: &Context,
+    place: &KeyPath,
+    length: f64,
+    shape: &str,
+    points: f64,
+) -> Result<(), SceneError> {
+    if (length - points).abs() <= LENGTH_SLACK * points {
+        return Ok(());
     }
-    Ok(Unloaded { shape: curve.shape, length: curve.length, start: Some(curve.start) })
+    let message = format!("the length is {length}, but the {shape} shape's points are {points} m long");
+    let error = context.document.error(place, message);
+    Err(error.mend("leave `length` out: it follows from the points"))
 }
 
 fn sampled(

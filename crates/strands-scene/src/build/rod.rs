@@ -1,6 +1,6 @@
 //! One rod: its description, its mesh, its problem.
 
-use super::{Context, hold, joint, load, profile, rest};
+use super::{Context, hold, initial, joint, load, profile, rest};
 use crate::document::KeyPath;
 use crate::error::SceneError;
 use crate::file::{DragFile, KinematicsName, MassMatrixName, RodFile};
@@ -21,7 +21,8 @@ pub(super) fn rod(
 ) -> Result<ModelRod, SceneError> {
     let document = context.document;
     let path = KeyPath::of("rods").key(name);
-    let unloaded = rest::unloaded(context, &path, file)?;
+    let points = initial::points(context, &path, file)?;
+    let unloaded = rest::unloaded(context, &path, file, points.as_ref().map(|points| points.length))?;
     let length = unloaded.length;
     let description = RodDescription {
         length,
@@ -56,8 +57,9 @@ pub(super) fn rod(
                 .mend(format!("write `elements = {needed}` or more")),
             _ => document.error(&path, error.to_string()),
         })?;
+    let initial = initial::initial(context, &path, file, points, &rod)?;
     let problem = loads
-        .problem(rod, &supports)
+        .problem(rod, &supports, initial.as_ref())
         .map_err(|error| document.error(&path.key("loads"), error.to_string()))?;
     let material = file.material.as_ref().and_then(|name| context.file.materials.get(name));
     let damping = material.and_then(|material| material.damping).unwrap_or(0.0);
@@ -78,6 +80,7 @@ pub(super) fn rod(
         drag,
         mass_matrix,
         loads,
+        initial,
         supports,
         ties,
     })

@@ -35,6 +35,20 @@ impl<'a> Sizes<'a> {
         self.document.error(&self.path.key(key), format!("`{key}` is missing")).mend(self.needs.clone())
     }
 
+    /// The radii of a ring, of its centre line and of its wire.
+    ///
+    /// # Errors
+    /// Where one is not there or not positive, or leaves no hole.
+    pub fn ring(&self, radius: Option<f64>, wire_radius: Option<f64>) -> Result<[f64; 2], SceneError> {
+        let [radius, wire] = [self.positive("radius", radius)?, self.positive("wire_radius", wire_radius)?];
+        if wire < radius {
+            return Ok([radius, wire]);
+        }
+        let message = format!("a wire of this radius leaves no hole in a ring of {radius} m");
+        let error = self.document.error(&self.path.key("wire_radius"), message);
+        Err(error.mend("`radius` is that of the centre line: the hole's is `radius` less `wire_radius`"))
+    }
+
     /// A size, which has to be there and positive.
     ///
     /// # Errors

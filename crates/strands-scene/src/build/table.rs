@@ -1,4 +1,4 @@
-//! Rest shapes from CSV files: a header line `x,y,z` (points, m) or `s,kappa1,kappa2,tau` (places, m, with curvature and twist, 1/m).
+//! Shapes from CSV files: a header line `x,y,z` (points, m) or `s,kappa1,kappa2,tau` (places, m, with curvature and twist, 1/m).
 
 use super::rest::Written;
 use crate::document::{Document, KeyPath};
@@ -17,6 +17,16 @@ pub(super) fn write_in(
     folder: Option<&Path>,
 ) -> Result<(), SceneError> {
     for (rod, written) in &mut file.rods {
+        if let Some(initial) = &mut written.initial
+            && let Some(name) = &initial.csv
+        {
+            let path = KeyPath::of("rods").key(rod).key("initial").key("csv");
+            // What are no points is said to be none where the scene is read.
+            if let Written::Points(points) = read(document, folder, &path, name)? {
+                initial.points = Some(points.iter().map(|point| point.to_array()).collect());
+                initial.csv = None;
+            }
+        }
         let Some(rest) = &mut written.rest else { continue };
         let Some(name) = rest.csv.take() else { continue };
         let path = KeyPath::of("rods").key(rod).key("rest").key("csv");

@@ -27,7 +27,15 @@ pub(super) fn look(remarks: &mut Remarks<'_>, file: &SceneFile, model: &Model) {
             "give a rod `[rods.thread.drag]` with `linear` or `quadratic`",
         );
     }
-    if model.dynamics.start.as_deref() == Some("rest") {
+    let start = model.dynamics.start.as_deref();
+    for (name, _) in file.rods.iter().filter(|(_, rod)| rod.initial.is_some() && start != Some("initial")) {
+        remarks.note(
+            &KeyPath::of("rods").key(name).key("initial"),
+            "the motion does not start from the initial shape".to_owned(),
+            "write `start = \"initial\"` in `[dynamics]`",
+        );
+    }
+    if matches!(start, Some("rest" | "initial")) {
         return;
     }
     for (i, body) in file.bodies.iter().enumerate() {

@@ -79,8 +79,8 @@ impl Scene {
             // What follows from a slip is not worth a word of its own.
             if !slipped {
                 reach::look_at_loads(&mut remarks, &view);
-                // What ties it holds it too.
-                if !view.rod.is_tied() {
+                // What ties it holds it too, and so does what it touches.
+                if !view.rod.is_tied() && self.model.surfaces.is_none() {
                     buckling::look(&mut remarks, &view);
                 }
                 mesh::look(&mut remarks, &view);

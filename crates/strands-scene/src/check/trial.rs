@@ -30,7 +30,7 @@ pub enum Trial {
         /// What is at fault, as far as it is known.
         fault: Fault,
     },
-    /// There was none: joints tie the rod to others, and it does not come to rest alone.
+    /// There was none: joints tie the rod to others, or surfaces touch, and it does not come to rest alone.
     Tied,
 }
 
@@ -47,7 +47,7 @@ pub enum Fault {
 
 /// Tries a rod, on the mesh for its tolerance where it gives one: the rod on that mesh, what it was solved with, and what was found.
 pub(super) fn trial(model: &Model, rod: &ModelRod) -> (ModelRod, Settings, Trial) {
-    if rod.is_tied() {
+    if rod.is_tied() || model.surfaces.is_some() {
         return (rod.clone(), model.settings, Trial::Tied);
     }
     let mut model = model.clone();
@@ -95,7 +95,7 @@ fn estimate(
         coarse.mesh().spans().iter().map(|span| (nodes[span.end], 2 * span.len())).collect();
     let mesh = Mesh::from_pieces(&halved).ok()?;
     let fine = Rod::new(coarse.description().clone(), mesh, coarse.order()).ok()?;
-    let problem = rod.loads.problem(fine, &rod.supports).ok()?;
+    let problem = rod.loads.problem(fine, &rod.supports, rod.initial.as_ref()).ok()?;
     let fine = solve(&problem, settings, Some(&solution.guess), workspace).ok()?;
     let apart = |(i, pose): (usize, &Pose)| {
         let by = pose.between(&fine.poses[2 * i]).log();

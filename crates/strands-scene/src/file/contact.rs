@@ -26,12 +26,15 @@ pub struct ObstacleFile {
     /// Where a plane's free side is. Default `[0.0, 0.0, 1.0]`.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub normal: Option<[f64; 3]>,
-    /// How it is turned, a unit quaternion `[w, x, y, z]`; what is long lies along its third axis. Default the identity.
+    /// How it is turned, a unit quaternion `[w, x, y, z]`; what is long lies along its third axis, and a ring is about it. Default the identity.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub orientation: Option<[f64; 4]>,
-    /// Radius of a sphere, a capsule, a cylinder or a tube's inside, m.
+    /// Radius of a sphere, a capsule, a cylinder, a tube's inside or the centre line of a ring, m.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub radius: Option<f64>,
+    /// Radius of the wire of a ring, m.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub wire_radius: Option<f64>,
     /// Length of a cylinder, or of a capsule between its two half balls, m.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub length: Option<f64>,
@@ -72,6 +75,8 @@ pub enum ObstacleName {
     Cylinder,
     /// A box: `position`, `orientation`, `size`.
     Box,
+    /// A ring of round wire, an eyelet: `position`, `orientation`, `radius`, `wire_radius`.
+    Ring,
     /// The inside of a tube without end: `position`, `orientation`, `radius`.
     Tube,
     /// A surface of triangles, touched from either side: `file` with `scale`, or `corners` and `triangles`; `position`, `orientation`.

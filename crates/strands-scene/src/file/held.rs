@@ -28,10 +28,10 @@ pub struct SupportFile {
     pub at: Place,
     /// What it holds.
     pub fix: Vec<FixName>,
-    /// Where it holds, m. Default: where the unloaded rod has this place.
+    /// Where it holds, m. Default: where the unloaded rod has this place, or its `initial` shape if it has one.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub position: Option<[f64; 3]>,
-    /// The frame it holds, a unit quaternion `[w, x, y, z]`. Default: as the unloaded rod has it.
+    /// The frame it holds, a unit quaternion `[w, x, y, z]`. Default: as the unloaded rod has it, or its `initial` shape if it has one.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub orientation: Option<[f64; 4]>,
     /// A direction in world axes along which it lets the rod slide, though it holds the position otherwise.

@@ -19,8 +19,8 @@ pub use network::{
 };
 pub use passage::{EyeletFile, TissueFile};
 pub use rod::{
-    DragFile, HelixFile, KinematicsName, MassMatrixName, RestFile, RestSample, RodFile, SectionFile,
-    SectionsFile, ShapeName, StiffnessFile,
+    DragFile, HelixFile, InitialFile, KinematicsName, MassMatrixName, RestFile, RestSample, RodFile,
+    SectionFile, SectionsFile, ShapeName, StiffnessFile,
 };
 pub use settings::{
     DynamicsFile, IntegratorName, JacobianName, MethodName, SchemeName, SolverFile, WindFile,

@@ -49,9 +49,12 @@ pub struct BodyFile {
 pub struct BodyShapeFile {
     /// Which.
     pub shape: BodyShapeName,
-    /// Radius of a ball, a capsule or a cylinder, m.
+    /// Radius of a ball, a capsule, a cylinder or the centre line of a ring, m.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub radius: Option<f64>,
+    /// Radius of the wire of a ring, m.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub wire_radius: Option<f64>,
     /// Length of a cylinder, m; of a capsule that of the cylinder between its two half balls.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub length: Option<f64>,
@@ -60,7 +63,7 @@ pub struct BodyShapeFile {
     pub size: Option<[f64; 3]>,
 }
 
-/// Which shape a body has. What is long lies along its third axis, as a rod does.
+/// Which shape a body has. What is long lies along its third axis, as a rod does, and a ring is about it.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
 #[serde(rename_all = "snake_case")]
 pub enum BodyShapeName {
@@ -72,6 +75,8 @@ pub enum BodyShapeName {
     Cylinder,
     /// A block: `size`.
     Block,
+    /// A ring of round wire, an eyelet: `radius`, `wire_radius`.
+    Ring,
 }
 
 /// A support of a body, at its centre of mass.

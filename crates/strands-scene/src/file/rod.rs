@@ -14,7 +14,7 @@ pub struct RodFile {
     /// The name of its material. Not with `stiffness`.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub material: Option<String>,
-    /// Rest length, m. It may be left out where `rest` gives points.
+    /// Rest length, m. It may be left out where `rest` or `initial` gives points.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub length: Option<f64>,
     /// How many elements it is cut into. Default 100; not with `tolerance`.
@@ -48,6 +48,10 @@ pub struct RodFile {
     /// points.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub orientation: Option<[f64; 4]>,
+    /// The shape that motion starts from, with `start = "initial"` in `[dynamics]`, where that is not the rest shape: a knot in a thread that is straight at
+    /// rest. What supports hold, they then hold there, unless they say where.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub initial: Option<InitialFile>,
     /// What holds it.
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
     pub supports: Vec<SupportFile>,
@@ -194,6 +198,24 @@ pub struct RestFile {
     /// A CSV file, its path relative to the scene's: columns `x,y,z` are points, `s,kappa1,kappa2,tau` are samples.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub csv: Option<String>,
+}
+
+/// The shape that motion starts from, given in one of three ways. Its length is the rod's.
+#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields, expecting = "a table")]
+pub struct InitialFile {
+    /// Points in the world, m, that the rod runs through smoothly. The frame at the first is the rod's `orientation`, turned by the least to lie along them.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub points: Option<Vec<[f64; 3]>>,
+    /// A CSV file of such points, its path relative to the scene's, with the columns `x,y,z`.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub csv: Option<String>,
+    /// A helix from the rod's `position` and `orientation` on, as that of a rest shape.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub helix: Option<HelixFile>,
+    /// How far its frames turn about the rod as one goes along it, 1/m, beside those that are carried along without turning. Default 0.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub twist: Option<f64>,
 }
 
 /// Rest curvature and twist at a place.

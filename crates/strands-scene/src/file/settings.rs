@@ -103,7 +103,8 @@ pub struct DynamicsFile {
     /// Frames a second in the output, 1/s.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub output_rate: Option<f64>,
-    /// Where it starts from: "equilibrium", "rest", or a saved state's file. Default "equilibrium".
+    /// Where it starts from: "equilibrium"; "rest", the rest shapes; "initial", the rods' `initial` shapes, where they have one; or a saved state's file. Default
+    /// "equilibrium".
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub start: Option<String>,
 }

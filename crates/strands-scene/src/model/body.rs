@@ -51,6 +51,13 @@ pub enum BodyShape {
         /// Its edges along its axes, m.
         size: [f64; 3],
     },
+    /// A ring of round wire about its third axis.
+    Ring {
+        /// The radius of its centre line, m.
+        radius: f64,
+        /// The radius of the wire, m.
+        wire_radius: f64,
+    },
 }
 
 impl BodyShape {
@@ -61,6 +68,9 @@ impl BodyShape {
             Self::Ball { radius } => Shape::Capsule { ends: [Vec3::ZERO; 2], radius },
             Self::Capsule { radius, length } => Shape::Capsule { ends: ends(length), radius },
             Self::Cylinder { radius, length } => Shape::Cylinder { ends: ends(length), radius },
+            Self::Ring { radius, wire_radius } => {
+                Shape::Ring { middle: Vec3::ZERO, axis: Vec3::Z, radius, wire_radius }
+            }
             Self::Block { size } => {
                 Shape::block(Vec3::ZERO, size.map(|edge| 0.5 * edge), [Vec3::X, Vec3::Y, Vec3::Z])
             }
@@ -74,6 +84,7 @@ impl BodyShape {
             Self::Capsule { radius, length } => assembly::capsule(density, radius, length),
             Self::Cylinder { radius, length } => assembly::cylinder(density, radius, length),
             Self::Block { size } => assembly::block(density, size),
+            Self::Ring { radius, wire_radius } => assembly::ring(density, radius, wire_radius),
         }
     }
 }

@@ -2,10 +2,12 @@
 
 mod body;
 mod held;
+mod initial;
 mod motion;
 
 pub use body::{BodyShape, ModelBody};
 pub(crate) use held::{Held, Target};
+pub(crate) use initial::Initial;
 pub use motion::OUTPUT_RATE;
 
 use crate::file::DynamicsFile;
@@ -67,6 +69,8 @@ pub struct ModelRod {
     /// How its inertia is summed onto its nodes.
     pub mass_matrix: MassMatrix,
     pub(crate) loads: Loads,
+    /// The shape that motion starts from, where that is another than at rest.
+    pub(crate) initial: Option<Initial>,
     pub(crate) supports: Vec<Held>,
     /// Where joints are, m.
     pub(crate) ties: Vec<f64>,
@@ -144,6 +148,11 @@ impl Model {
         if self.rods.iter().any(ModelRod::is_tied) { Err(Tied) } else { Ok(()) }
     }
 
+    /// Whether its rods come to rest by moving only: joints tie them, nothing holds one, or surfaces touch.
+    pub fn moves_only(&self) -> bool {
+        self.surfaces.is_some() || self.each_alone().is_err()
+    }
+
     /// The rod of a name.
     pub fn rod(&self, name: &str) -> Option<&ModelRod> {
         self.rods.iter().find(|rod| rod.name == name)
@@ -160,7 +169,7 @@ impl ModelRod {
         let rod = &self.problem.rod;
         let order: Order = rod.order();
         let breaks = breaks(&self.loads, &self.supports, &self.ties);
-        let pose = |rod: Rod| self.loads.problem(rod, &self.supports);
+        let pose = |rod: Rod| self.loads.problem(rod, &self.supports, self.initial.as_ref());
         refine(rod.description(), order, &breaks, tolerance, MAX_ELEMENTS, settings, pose)
     }
 }
@@ -179,8 +188,14 @@ impl Loads {
         points.chain(self.pulls.iter().map(|pull| pull.at)).chain(stretches.chain(pulled).flatten()).collect()
     }
 
-    /// The problem of a rod under these loads and so held. The mesh has a node wherever it is held.
-    pub fn problem(&self, rod: Rod, supports: &[Held]) -> Result<Problem, RodError> {
+    /// The problem of a rod under these loads and so held, where supports that do not say where hold it in its initial shape, or else at rest. The mesh has a node
+    /// wherever it is held.
+    pub fn problem(
+        &self,
+        rod: Rod,
+        supports: &[Held],
+        initial: Option<&Initial>,
+    ) -> Result<Problem, RodError> {
         let mut loads = NodalLoads::none(&rod).with_gravity(&rod, self.gravity);
         for load in &self.points {
             loads = loads.with_point(&rod, load)?;
@@ -195,13 +210,14 @@ impl Loads {
             loads = loads.with_distributed_pull(&rod, pull)?;
         }
         let rest = rod.rest_poses();
+        let unheld = initial.map_or_else(|| rest.clone(), |initial| initial.poses(&rod));
         let last = rod.elements();
         let (start, end) = (Support::free(rest[0]), Support::free(rest[last]));
         let mut problem = Problem { loads, start, end, between: Vec::new(), rod };
         for held in supports {
             let node = problem.rod.mesh().node_at(held.s);
             let node = node.unwrap_or_else(|| unreachable!("the supports are among the mesh's breaks"));
-            let support = held.support(rest[node]);
+            let support = held.support(unheld[node]);
             match problem.support_mut(node) {
                 Some(end) => *end = support,
                 None => problem.between.push((node, support)),

@@ -5,7 +5,7 @@ use crate::file::IntegratorName;
 use strands::assembly::{Assembly, JointKind, Keyframes, Member, Strand};
 use strands::contact::Obstacle;
 use strands::dynamics::{self, Integrator, Simulation, SimulationError, Start};
-use strands::math::{Vec3, Vec6};
+use strands::math::{Pose, Vec3, Vec6};
 use strands::rod::Kinematics;
 
 /// What generalised-α leaves after a step of a motion that is much faster, where the scene does not say it.
@@ -49,7 +49,23 @@ impl Model {
         self.bodies.iter().filter(|body| body.shape.is_some()).nth(at)
     }
 
-    /// Where all starts. From rest it sets off as the scene says.
+    /// Where its `[dynamics]` says that motion starts, and in equilibrium where they say nothing; `None` where they name the file of a saved state.
+    pub fn start(&self) -> Option<Start> {
+        match self.dynamics.start.as_deref().unwrap_or("equilibrium") {
+            "equilibrium" => Some(Start::Equilibrium),
+            "rest" => Some(Start::Rest),
+            "initial" => Some(Start::Shape(self.starts())),
+            _ => None,
+        }
+    }
+
+    /// The frames of the initial shapes of rods, or at rest where they have none, and of bodies at rest.
+    pub(crate) fn starts(&self) -> Vec<Pose> {
+        let rods = self.rods.iter().flat_map(ModelRod::starts);
+        rods.chain(self.bodies.iter().map(|body| body.body.pose)).collect()
+    }
+
+    /// Where all starts. From rest, or its initial shapes, it sets off as the scene says.
     ///
     /// # Errors
     /// As [`Simulation::new`].
@@ -58,7 +74,11 @@ impl Model {
         settings: dynamics::Settings,
         start: Start,
     ) -> Result<Simulation, SimulationError> {
-        let sets_off = if matches!(start, Start::Rest) { self.velocities() } else { None };
+        let sets_off = match &start {
+            Start::Rest => self.velocities(),
+            Start::Shape(shape) => self.velocities_in(shape),
+            Start::Equilibrium | Start::State(_) => None,
+        };
         let mut simulation = Simulation::new(self.assembly(), settings, start)?;
         if let Some(velocities) = sets_off {
             simulation.set_velocities(&velocities);
@@ -112,12 +132,16 @@ impl Model {
     /// [`set_velocities`](Simulation::set_velocities): bodies as they say, rods at rest but for the nodes that joints tie to such a body.
     /// `None` where nothing sets off.
     pub fn velocities(&self) -> Option<Vec<Vec6>> {
+        self.velocities_in(&self.assembly().rest_poses())
+    }
+
+    /// The same where all frames are these.
+    fn velocities_in(&self, rest: &[Pose]) -> Option<Vec<Vec6>> {
         let still = |body: &ModelBody| body.velocity == Vec3::ZERO && body.angular_velocity == Vec3::ZERO;
         if self.bodies.iter().all(still) {
             return None;
         }
         let assembly = self.assembly();
-        let rest = assembly.rest_poses();
         let mut velocities = vec![Vec6::ZERO; rest.len()];
         let first = assembly.first_body();
         for (body, frame) in self.bodies.iter().zip(first..) {
@@ -155,13 +179,20 @@ impl ModelRod {
         }
     }
 
+    /// The frames that motion starts from: of its initial shape, or at rest.
+    pub(crate) fn starts(&self) -> Vec<Pose> {
+        let rod = &self.problem.rod;
+        self.initial.as_ref().map_or_else(|| rod.rest_poses().to_vec(), |initial| initial.poses(rod))
+    }
+
     /// How its supports move, where it is the rod of a number.
     fn moving(&self, rod: usize) -> Vec<Keyframes> {
         let mesh = &self.problem.rod;
+        let unheld = self.starts();
         let moving = self.supports.iter().filter(|held| !held.motion.is_empty());
         let keyframes = moving.filter_map(|held| {
             let node = mesh.mesh().node_at(held.s)?;
-            held.keyframes(Member::Node { rod, node }, mesh.rest_poses()[node])
+            held.keyframes(Member::Node { rod, node }, unheld[node])
         });
         keyframes.collect()
     }

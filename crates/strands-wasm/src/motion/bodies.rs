@@ -22,6 +22,9 @@ fn shape(body: &ModelBody) -> Value {
         BodyShape::Cylinder { radius, length } => {
             json!({ "kind": "cylinder", "radius": radius, "length": length })
         }
+        BodyShape::Ring { radius, wire_radius } => {
+            json!({ "kind": "ring", "radius": radius, "wire_radius": wire_radius })
+        }
         BodyShape::Block { size } => json!({ "kind": "block", "size": size }),
     }
 }

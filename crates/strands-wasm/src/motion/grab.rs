@@ -12,8 +12,8 @@ use strands::statics::{Problem, Support};
 const FREQUENCY: f64 = 100.0;
 /// The spring over the rod's own stiffness, `EI/L³` and `EI/L`: a bent rod hardly pulls it out, or turns it.
 const OVER_STIFFNESS: [f64; 2] = [200.0, 2000.0];
-/// How much stiffer it is where it takes over from what held the node firmly.
-const FIRMER: f64 = 16.0;
+/// How much stiffer it is where it takes over from what held the node firmly: so much that it pulls a knot tight.
+const FIRMER: f64 = 100.0;
 /// How far ahead of the node the hand gets, over the rod's length: out of reach it pulls no harder.
 const LEASH: f64 = 0.05;
 /// How soon the hand is where the pointer is, s: it follows as a critically damped spring would, since pointers come in leaps from frame to frame.

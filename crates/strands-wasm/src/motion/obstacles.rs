@@ -20,6 +20,9 @@ fn shape(shape: &Shape) -> Value {
         Shape::Cylinder { ends, radius } => {
             json!({ "kind": "cylinder", "ends": ends.map(|end| end.to_array()), "radius": radius })
         }
+        Shape::Ring { middle, axis, radius, wire_radius } => json!({
+            "kind": "ring", "point": middle.to_array(), "axis": axis.to_array(), "radius": radius, "wire_radius": wire_radius
+        }),
         Shape::Bore { point, axis, radius } => {
             json!({ "kind": "tube", "point": point.to_array(), "axis": axis.to_array(), "radius": radius })
         }

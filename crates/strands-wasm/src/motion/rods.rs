@@ -4,10 +4,10 @@ use std::slice::SliceIndex;
 use strands::assembly::{Member, Strand};
 use strands::contact::Contact;
 use strands::coupling::Grip;
-use strands::dynamics::{Budget, Settings, Simulation, Start, Step};
+use strands::dynamics::{Budget, Settings, Simulation, Step};
 use strands::math::{Pose, Vec3, Wrench};
 use strands::statics::{Energy, Guess, Problem, Reaction, Solution, SolveReport, Support};
-use strands_scene::{DynamicsFile, Model};
+use strands_scene::Model;
 
 /// The residual at which a step is solved. What is over `EI/L²` is far less than any rod here weighs, and no eye sees it.
 const TOLERANCE: f64 = 1e-6;
@@ -40,7 +40,12 @@ impl Rods {
     /// Where the scene asks for what there is not, or a rod cannot move.
     pub fn of(model: &Model) -> Result<Self, String> {
         let settings = Settings { tolerance: TOLERANCE, ..model.motion() };
-        let start = start(&model.dynamics)?;
+        let start = model.start().ok_or_else(|| {
+            let file = model.dynamics.start.as_deref().unwrap_or_default();
+            format!(
+                "dynamics.start: the page cannot read {file}; give \"equilibrium\", \"rest\" or \"initial\""
+            )
+        })?;
         let simulation = model.simulation(settings, start).map_err(|error| error.to_string())?;
         let names = model.rods.iter().map(|rod| rod.name.clone()).collect();
         let before = simulation.state().poses.clone();
@@ -210,12 +215,3 @@ impl Rods {
 }
 
 const AT_REST: Step = Step { time: 0.0, seconds: 0.0, iterations: 0, residual: 0.0, pieces: 0 };
-
-/// Where a scene starts.
-fn start(dynamics: &DynamicsFile) -> Result<Start, String> {
-    match dynamics.start.as_deref().unwrap_or("equilibrium") {
-        "equilibrium" => Ok(Start::Equilibrium),
-        "rest" => Ok(Start::Rest),
-        file => Err(format!("dynamics.start: the page cannot read {file}; give \"equilibrium\" or \"rest\"")),
-    }
-}

@@ -162,6 +162,24 @@ fn every_bundled_scene_moves() {
 }
 
 #[test]
+fn a_knot_is_pulled_tight_by_one_of_its_ends() {
+    let mut knot = opened("overhand_knot");
+    assert!(knot.advance(0.1, f64::INFINITY, still), "{}", knot.report());
+    let (last, began) = (100, knot.rods.pose(0, 100));
+    knot.grab(0, last);
+    for millimetre in 1..=40 {
+        let position = began.position + Vec3::new(1e-3 * f64::from(millimetre), 0.0, 0.0);
+        knot.pull(Pose { position, ..began });
+        assert!(knot.advance(0.02, f64::INFINITY, still), "{millimetre} mm: {}", knot.report());
+    }
+    // It has come along nearly all the way, and what is left of the loop is tight.
+    let came = knot.rods.pose(0, last).position.x - began.position.x;
+    assert!(came > 0.035, "{came}");
+    assert!(knot.rods.contacts().len() > 3);
+    assert!(knot.rods.contacts().iter().all(|contact| contact.gap > 0.0));
+}
+
+#[test]
 fn the_scenes_that_open_in_motion_move_for_seconds() {
     for name in ["swinging_rope", "whip", "hair_tuft", "needle_and_thread"] {
         let mut moving = opened(name);

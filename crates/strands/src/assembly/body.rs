@@ -59,6 +59,14 @@ pub fn block(density: f64, [a, b, c]: [f64; 3]) -> NodeInertia {
     NodeInertia { mass, rotational: Vec3::new(about(b, c), about(a, c), about(a, b)) }
 }
 
+/// The inertia of a ring of round wire about its third axis: a torus, by the radii of its centre line and of the wire.
+pub fn ring(density: f64, radius: f64, wire_radius: f64) -> NodeInertia {
+    let mass = density * 2.0 * PI * PI * radius * wire_radius * wire_radius;
+    let [line, wire] = [radius, wire_radius].map(|radius| mass * radius * radius);
+    let across = 0.5 * line + 0.625 * wire;
+    NodeInertia { mass, rotational: Vec3::new(across, across, line + 0.75 * wire) }
+}
+
 /// The inertia of a solid capsule along its third axis: a cylinder of a length between two half balls.
 pub fn capsule(density: f64, radius: f64, length: f64) -> NodeInertia {
     let (middle, ends) = (cylinder(density, radius, length), ball(density, radius));

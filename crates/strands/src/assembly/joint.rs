@@ -48,11 +48,25 @@ impl Joint {
         place: Option<Vec3>,
         axis: Vec3,
     ) -> Result<Self, AssemblyError> {
+        Self::in_shape(assembly, &assembly.rest_poses(), kind, members, place, axis)
+    }
+
+    /// The same of two frames as they are where all frames are these.
+    ///
+    /// # Errors
+    /// As [`at_rest`](Joint::at_rest).
+    pub fn in_shape(
+        assembly: &Assembly,
+        shape: &[Pose],
+        kind: JointKind,
+        members: [Member; 2],
+        place: Option<Vec3>,
+        axis: Vec3,
+    ) -> Result<Self, AssemblyError> {
         let joint = assembly.joints.len();
-        let rest = assembly.rest_poses();
         let mut poses = [Pose::IDENTITY; 2];
         for (pose, member) in poses.iter_mut().zip(members) {
-            *pose = rest[assembly.frame(member).ok_or(AssemblyError::Missing { joint, member })?];
+            *pose = shape[assembly.frame(member).ok_or(AssemblyError::Missing { joint, member })?];
         }
         let is_node = |member: &Member| matches!(member, Member::Node { .. });
         let node = members.iter().position(is_node).unwrap_or(0);

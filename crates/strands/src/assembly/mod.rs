@@ -9,7 +9,7 @@ mod joint;
 mod keyframes;
 mod ties;
 
-pub use body::{Body, ball, block, capsule, cylinder};
+pub use body::{Body, ball, block, capsule, cylinder, ring};
 pub use joint::{Attachment, Joint, JointKind};
 pub use keyframes::Keyframes;
 pub(crate) use ties::{Cluster, Ties};
@@ -225,7 +225,15 @@ impl Assembly {
     /// The first that cannot: one that names a frame that there is not, closes a ring of joints alone, ties together two places that are both held, or
     /// whose two sides are apart at rest.
     pub fn check(&self) -> Result<(), AssemblyError> {
-        Ties::new(self)?.put_together(self, &mut self.rest_poses())
+        self.check_in_shape(&self.rest_poses())
+    }
+
+    /// Whether its joints can be where all frames are these.
+    ///
+    /// # Errors
+    /// As [`check`](Assembly::check).
+    pub fn check_in_shape(&self, shape: &[Pose]) -> Result<(), AssemblyError> {
+        Ties::new(self)?.put_together(self, &mut shape.to_vec())
     }
 
     /// All frames when nothing acts on the rods.

@@ -44,6 +44,17 @@ pub enum Shape {
         /// The radius, m.
         radius: f64,
     },
+    /// A ring of round wire: 24 capsules about the least polygon around a circle, so that its hole is as wide as that of a torus or wider.
+    Ring {
+        /// Its middle, m.
+        middle: Vec3,
+        /// The unit direction of its axis.
+        axis: Vec3,
+        /// The radius of the circle, m.
+        radius: f64,
+        /// The radius of the wire, m.
+        wire_radius: f64,
+    },
     /// All around a bore without end: rods are inside.
     Bore {
         /// A point on its axis, m.
@@ -72,6 +83,8 @@ pub(crate) enum Part {
 
 /// So many corners has the rim of a cylinder.
 const RIM: usize = 64;
+/// So many capsules make a ring.
+const RING: usize = 24;
 
 impl Shape {
     /// A box about a middle, with half extents along unit axes, m.
@@ -98,6 +111,11 @@ impl Shape {
                 let from = point - *on;
                 radius - (from - *axis * from.dot(*axis)).norm()
             }
+            Self::Ring { middle, axis, radius, wire_radius } => {
+                let from = point - *middle;
+                let along = from.dot(*axis);
+                ((from - *axis * along).norm() - radius).hypot(along) - wire_radius
+            }
             Self::Mesh(mesh) => {
                 let nearest = mesh.triangles().map(|[a, b, c]| from_triangle(&[point, a, b, c]));
                 let apart = nearest.fold(f64::INFINITY, f64::min);
@@ -118,6 +136,11 @@ impl Shape {
                 vec![Part::Bore { point: *point, axis: *axis, radius: *radius }]
             }
             Self::Cylinder { ends, radius } => cylinder(*ends, *radius),
+            Self::Ring { middle, axis, radius, wire_radius } => {
+                let around = radius / (core::f64::consts::PI / RING as f64).cos();
+                let wire = polygon(*middle, *axis, around, RING);
+                wire.map(|ends| Part::Round { ends, radius: *wire_radius, capped: true }).collect()
+            }
             Self::Mesh(mesh) => {
                 let faces = mesh.triangles().map(|corners| Part::Face { corners });
                 faces.chain(mesh.edges().map(edge)).collect()
@@ -145,18 +168,22 @@ fn edge(ends: [Vec3; 2]) -> Part {
 fn cylinder(ends: [Vec3; 2], radius: f64) -> Vec<Part> {
     let mut parts = vec![Part::Round { ends, radius, capped: false }];
     let axis = (ends[1] - ends[0]).normalized().unwrap_or(Vec3::Z);
-    let first = axis.any_orthonormal();
-    let second = axis.cross(first);
     for middle in ends {
-        let corner = |k: usize| {
-            let (sin, cos) = (core::f64::consts::TAU * k as f64 / RIM as f64).sin_cos();
-            middle + (first * cos + second * sin) * radius
-        };
-        for k in 0..RIM {
-            let rim = [corner(k), corner((k + 1) % RIM)];
+        for rim in polygon(middle, axis, radius, RIM) {
             parts.push(edge(rim));
             parts.push(Part::Face { corners: [middle, rim[0], rim[1]] });
         }
     }
     parts
+}
+
+/// The sides of a regular polygon across a unit axis, whose corners are as far from its middle as the radius.
+fn polygon(middle: Vec3, axis: Vec3, radius: f64, sides: usize) -> impl Iterator<Item = [Vec3; 2]> {
+    let first = axis.any_orthonormal();
+    let second = axis.cross(first);
+    let corner = move |k: usize| {
+        let (sin, cos) = (core::f64::consts::TAU * k as f64 / sides as f64).sin_cos();
+        middle + (first * cos + second * sin) * radius
+    };
+    (0..sides).map(move |k| [corner(k), corner((k + 1) % sides)])
 }

@@ -155,9 +155,9 @@ pub enum SimulationError {
         /// Which.
         between: [Toucher; 2],
     },
-    /// At rest a rod would not be where it is held.
+    /// Where it starts a rod would not be where it is held.
     #[error(
-        "in its rest shape rod {rod} is not where it is held at s = {s} m: start in equilibrium, or hold it there"
+        "in the shape that it starts from rod {rod} is not where it is held at s = {s} m: start in equilibrium, or hold it there"
     )]
     NotHeldThere {
         /// The rod.

@@ -3,7 +3,7 @@
 use super::holds::put_as_planned;
 use super::{Integrator, Past, Power, Settings, Simulation, SimulationError, State};
 use crate::contact::Toucher;
-use crate::math::{Vec6, Wrench, larger};
+use crate::math::{Pose, Vec6, Wrench, larger};
 use crate::statics::{self, Method, Scheme, Workspace, meet};
 
 /// Where a simulation starts.
@@ -13,6 +13,9 @@ pub enum Start {
     Equilibrium,
     /// In the shape that it has when nothing acts on it, at rest.
     Rest,
+    /// At rest in these frames: of the nodes of the rods, rod by rod, and then of the bodies
+    /// ([`Assembly::nodes`](crate::assembly::Assembly::nodes)). What bends the rods there acts from then on.
+    Shape(Vec<Pose>),
     /// From a state of a simulation of the same assembly.
     State(Box<State>),
 }
@@ -57,6 +60,18 @@ impl Simulation {
         match start {
             Start::State(state) => self.restore(*state),
             Start::Rest => self.at_rest(true),
+            Start::Shape(poses) => {
+                let got = [poses.len(), self.state.wrenches.len()];
+                let needed = [self.state.poses.len(), got[1]];
+                if got != needed {
+                    return Err(SimulationError::Unfit { got, needed });
+                }
+                if !poses.iter().all(Pose::is_finite) {
+                    return Err(SimulationError::NotFinite);
+                }
+                self.state.poses = poses;
+                self.at_rest(true)
+            }
             Start::Equilibrium => {
                 self.at_rest(false)?;
                 let alone = |group: &super::Group| group.network.is_none();
@@ -72,7 +87,7 @@ impl Simulation {
         }
     }
 
-    /// All in its rest shape, where what is held has to be where it is held, or is put there.
+    /// All at rest where it is, where what is held has to be where it is held, or is put there.
     fn at_rest(&mut self, must_be_held: bool) -> Result<(), SimulationError> {
         let Self { assembly, state, work, .. } = self;
         for (rod, strand) in assembly.strands.iter().enumerate() {

@@ -49,14 +49,14 @@ pub enum RodError {
         /// Which entry, from 0.
         index: usize,
     },
-    /// Two neighbouring points of a rest shape are the same.
-    #[error("rest point {index} is the same as the one before it: remove one of them")]
+    /// Two neighbouring points of a line are the same.
+    #[error("point {index} is the same as the one before it: remove one of them")]
     PointsCoincide {
         /// Which point, from 0.
         index: usize,
     },
-    /// A rest shape that turns by half a turn at one point.
-    #[error("the rest shape folds back on itself at point {index}: give more points around the bend")]
+    /// A line that turns by half a turn at one point.
+    #[error("the line folds back on itself at point {index}: give more points around the bend")]
     FoldsBack {
         /// Which point, from 0.
         index: usize,

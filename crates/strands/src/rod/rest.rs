@@ -91,12 +91,12 @@ impl RestShape {
     /// # Errors
     /// Where there are fewer than two points, one is not finite, two neighbours coincide, or the line folds back on itself.
     pub fn polyline(points: &[Vec3]) -> Result<RestCurve, RodError> {
-        let what = "rest points";
+        let what = "points";
         if points.len() < 2 {
             return Err(RodError::TooFewPoints { what, needed: 2, got: points.len() });
         }
         if let Some(index) = points.iter().position(|p| !p.is_finite()) {
-            return Err(RodError::NotFinite { what: "rest point", index });
+            return Err(RodError::NotFinite { what: "point", index });
         }
         let mut sides = Vec::with_capacity(points.len() - 1);
         for (index, pair) in points.windows(2).enumerate() {
