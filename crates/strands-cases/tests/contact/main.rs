@@ -3,3 +3,4 @@
 mod capstan;
 mod overhand;
 mod set_up;
+mod walls;
