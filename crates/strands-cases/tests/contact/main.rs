@@ -1,6 +1,8 @@
 //! Contact and friction where the answer is known.
 
 mod capstan;
+mod knots;
 mod overhand;
 mod set_up;
+mod shapes;
 mod walls;

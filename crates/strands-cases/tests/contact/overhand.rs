@@ -4,7 +4,8 @@
 //! a circle, and a braid of both strands, of which lengths are of `√(2hR)`. To the lowest order in `ε = √(h/R)` its ends, which may turn about their axis, are pulled by
 //! `T h²/EI = ε⁴/2 + μ σ ε³` while it is tightened, with `σ = 0.492`, and are nearer to each other by `2πR` than the thread is long.
 
-use super::set_up::{EULER, Line, Thread, at_rest, framed, free, least_distance};
+use super::set_up::{EULER, Thread, at_rest, framed, free, least_distance};
+use super::shapes::overhand;
 use core::f64::consts::PI;
 use strands::assembly::{Assembly, Member};
 use strands::contact::Surfaces;
@@ -24,30 +25,6 @@ struct Knot {
     slow: f64,
 }
 
-/// The line of a knot whose tails are along z. Its strands go round each other by three half turns where they meet.
-fn line(loop_radius: f64, tail: f64) -> Line {
-    const FINE: usize = 4000;
-    let (r, h) = (loop_radius, THREAD.radius);
-    let braid = 0.7 * r;
-    let strand = |z: f64, side: f64| {
-        let circle = r - (r * r - z * z).sqrt();
-        let half = (0.25 * circle * circle + (1.1 * h).powi(2)).sqrt();
-        let x = (0.5 + 0.5 * z / (3.2 * (2.0 * h * r).sqrt())).clamp(0.0, 1.0);
-        let (sin, cos) = (3.0 * PI * x * x * (3.0 - 2.0 * x)).sin_cos();
-        Vec3::new(0.5 * circle + side * half * cos, side * half * sin, z)
-    };
-    let strand =
-        |side: f64| (0..=FINE).map(move |k| strand(braid * (2.0 * k as f64 / FINE as f64 - 1.0), side));
-    let opening = (braid / r).asin();
-    let circle = (1..FINE).map(|k| {
-        let (sin, cos) = (opening + 2.0 * (PI - opening) * k as f64 / FINE as f64).sin_cos();
-        Vec3::new(r * (1.0 - cos), 0.0, r * sin)
-    });
-    let ends = [-tail, tail].map(|z| Vec3::new(0.0, 0.0, z));
-    let places = [ends[0]].into_iter().chain(strand(-1.0)).chain(circle).chain(strand(1.0));
-    Line::through(places.chain([ends[1]]).collect())
-}
-
 impl Knot {
     /// Without friction.
     fn of(epsilon: f64) -> Self {
@@ -55,7 +32,7 @@ impl Knot {
         let r = h / (epsilon * epsilon);
         // Tails are bent over `√(EI/T)`.
         let tail = 4.0 * 2.0_f64.sqrt() * r;
-        let line = line(r, tail);
+        let line = overhand(r, tail, h);
         let length = line.length();
         // Elements are shorter where strands meet.
         let (meet, short, long) = (4.0 * (2.0 * h * r).sqrt(), 0.3 * h / epsilon, 0.15 * r);
@@ -125,7 +102,7 @@ impl Knot {
                 sum += tension * radius * radius / THREAD.bending();
             }
             // Of the braid's elements only those of the other strand are so near.
-            let least = least_distance(&simulation.state().poses, 8);
+            let least = least_distance(&[&simulation.state().poses], 8);
             assert!((2.0..2.03).contains(&(least / THREAD.radius)), "μ {friction}, step {step}: {least:e}");
         }
         sum / (STEPS - STEPS / 2) as f64

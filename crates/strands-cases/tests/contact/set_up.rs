@@ -116,21 +116,31 @@ pub fn at_rest(assembly: &Assembly, poses: Vec<Pose>) -> State {
     }
 }
 
-/// How near the axes of elements come to each other that are more elements apart than so many, by alternating projections.
-pub fn least_distance(poses: &[Pose], between: usize) -> f64 {
+/// How near the axes of elements come to each other, of one rod those that are more elements apart than so many, by alternating projections.
+pub fn least_distance(rods: &[&[Pose]], between: usize) -> f64 {
     let mut least = f64::INFINITY;
-    let ends = |i: usize| (poses[i].position, poses[i + 1].position);
-    for i in 0..poses.len() - 1 {
-        for j in i + 1 + between..poses.len() - 1 {
-            let ((a, b), (c, d)) = (ends(i), ends(j));
-            if (a - c).norm() > (b - a).norm() + (d - c).norm() + least {
-                continue;
-            }
-            let mut s = 0.5;
-            for _ in 0..200 {
-                let t = ((a + (b - a) * s - c).dot(d - c) / (d - c).dot(d - c)).clamp(0.0, 1.0);
-                s = ((c + (d - c) * t - a).dot(b - a) / (b - a).dot(b - a)).clamp(0.0, 1.0);
-                least = least.min((a + (b - a) * s - c - (d - c) * t).norm());
+    let ends = |rod: usize, i: usize| (rods[rod][i].position, rods[rod][i + 1].position);
+    for one in 0..rods.len() {
+        for other in one..rods.len() {
+            for i in 0..rods[one].len() - 1 {
+                let (a, b) = ends(one, i);
+                let first = if one == other { i + 1 + between } else { 0 };
+                for j in first..rods[other].len() - 1 {
+                    let (c, d) = ends(other, j);
+                    if (a - c).norm() > (b - a).norm() + (d - c).norm() + least {
+                        continue;
+                    }
+                    let mut s = 0.5;
+                    for _ in 0..200 {
+                        let t = ((a + (b - a) * s - c).dot(d - c) / (d - c).dot(d - c)).clamp(0.0, 1.0);
+                        let before = s;
+                        s = ((c + (d - c) * t - a).dot(b - a) / (b - a).dot(b - a)).clamp(0.0, 1.0);
+                        least = least.min((a + (b - a) * s - c - (d - c) * t).norm());
+                        if (s - before).abs() < 1e-9 {
+                            break;
+                        }
+                    }
+                }
             }
         }
     }
