@@ -3,6 +3,7 @@
 mod capstan;
 mod knots;
 mod overhand;
+mod plectoneme;
 mod set_up;
 mod shapes;
 mod walls;

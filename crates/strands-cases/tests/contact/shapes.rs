@@ -58,6 +58,46 @@ pub fn square(size: f64, leg: f64, radius: f64) -> [Line; 2] {
     [one, other].map(Line::through)
 }
 
+/// A thread of a radius that winds around itself along x by so many turns, at an angle to that, with a loop of about a size at the tip and tails along z.
+pub fn plectoneme(alpha: f64, turns: f64, tail: f64, size: f64, radius: f64) -> Line {
+    const FINE: usize = 4000;
+    let r = radius;
+    let height = turns * 2.0 * PI * r / alpha.tan();
+    let bend = 4.0 * r;
+    let (r1, tip) = (1.1 * r, 3.0 * size);
+    // One strand from the ply's foot to its tip.
+    let strand = |side: f64| {
+        let ply = (0..=FINE).map(move |k| {
+            let x = height * k as f64 / FINE as f64;
+            let (sin, cos) = (x * alpha.tan() / r).sin_cos();
+            Vec3::new(bend + x, -side * r1 * sin, side * r1 * cos)
+        });
+        let (sin, cos) = (height * alpha.tan() / r).sin_cos();
+        let end = (1..=FINE).map(move |k| {
+            // Even in the angle at its round end.
+            let u = (0.5 * PI * k as f64 / FINE as f64).sin();
+            let d = (r1 + 2.6 * size * u * u.sqrt()) * (1.0 - u).max(0.0).sqrt();
+            Vec3::new(bend + height + tip * u, -side * d * sin, side * d * cos)
+        });
+        ply.chain(end)
+    };
+    let foot = |side: f64| {
+        (0..FINE / 10).map(move |k| {
+            let (sin, cos) = (0.5 * PI * k as f64 / (FINE / 10) as f64).sin_cos();
+            Vec3::new(bend * (1.0 - cos), 0.0, side * (r1 + bend * (1.0 - sin)))
+        })
+    };
+    let mut places = vec![Vec3::Z * -tail];
+    places.extend(foot(-1.0));
+    places.extend(strand(-1.0));
+    let mut back: Vec<Vec3> = vec![Vec3::Z * tail];
+    back.extend(foot(1.0));
+    back.extend(strand(1.0));
+    back.pop();
+    places.extend(back.into_iter().rev());
+    Line::through(places)
+}
+
 /// The determinant of a knot, by how a projection of it can be coloured (Fox): 1 where there is none, 3 of a trefoil, 9 of a square knot. It does not change unless
 /// the line goes through itself.
 pub fn determinant(closed: &[Vec3]) -> i64 {
