@@ -6,4 +6,5 @@ mod overhand;
 mod plectoneme;
 mod set_up;
 mod shapes;
+mod tube;
 mod walls;
