@@ -2,6 +2,7 @@
 
 mod capstan;
 mod knots;
+mod nets;
 mod overhand;
 mod plectoneme;
 mod set_up;
