@@ -220,3 +220,57 @@ fn a_rod_buckles_between_walls_and_touches_along_a_line() {
         assert!((force - 1.0).abs() < 5e-3 && (load - 1.0).abs() < 5e-3, "{force} {load}");
     }
 }
+
+/// A rod folded between two plates, so far apart that its axis is `FOLD` on one side from where it is on the other: how hard it presses each, N, how it is bent at the tip, 1/m, and how far that is beyond
+/// where it presses, m.
+fn folded() -> [f64; 3] {
+    const RADIUS: f64 = 1e-4;
+    let modulus = FOLDED / (PI * RADIUS.powi(4) / 4.0);
+    let thread = Thread { radius: RADIUS, modulus, poisson: 0.3, density: 1000.0 };
+    let (turn, leg) = (0.5 * PI * FOLD, 1.5 * FOLD);
+    let length = turn + 2.0 * leg;
+    let place = |s: f64| {
+        let from_tip = s - 0.5 * length;
+        let angle = (from_tip / (0.5 * FOLD)).clamp(-0.5 * PI, 0.5 * PI);
+        let (sin, cos) = angle.sin_cos();
+        let beyond = (from_tip.abs() - 0.5 * turn).max(0.0);
+        Vec3::new(0.5 * FOLD * sin, 0.0, 0.5 * FOLD * cos - beyond)
+    };
+    const ELEMENTS: usize = 200;
+    let places: Vec<Vec3> = (0..=ELEMENTS).map(|i| place(length * i as f64 / ELEMENTS as f64)).collect();
+    let poses = framed(&places, Vec3::Y);
+    let rod = thread.rod(poses[0], &[(length, ELEMENTS)]);
+    // It might go along the plates.
+    let middle = ELEMENTS / 2;
+    let held = Support::of([false, false, false, false, true, true], poses[middle]);
+    let problem = Problem { between: vec![(middle, held)], ..free(rod) };
+    let plate = |side: f64| Shape::Plane {
+        point: Vec3::X * (side * (0.5 * FOLD + 1.012 * RADIUS)),
+        normal: Vec3::X * -side,
+    };
+    let assembly = smooth(problem, &[plate(1.0), plate(-1.0)]);
+    let slow = FOLD * FOLD * (thread.density * PI * RADIUS * RADIUS / FOLDED).sqrt();
+    let simulation = settled(&assembly, at_rest(&assembly, poses), slow);
+    let (state, rod) = (simulation.state(), &simulation.assembly().strands[0].problem.rod);
+    let (strains, _) = rod.strains_and_stresses(&state.poses, &state.wrenches);
+    let touches = pressed(&simulation);
+    let sum: f64 = touches.iter().map(|(_, force)| force).sum();
+    let place: f64 = touches.iter().map(|(point, force)| point.z * force).sum::<f64>() / sum;
+    [0.5 * sum, strains[middle].angular.norm(), state.poses[middle].position.z - place]
+}
+
+const FOLD: f64 = 0.02;
+const FOLDED: f64 = 2e-4;
+
+/// Matthewson, Kurkjian and Gulati 1986, by which the strength of optical fibres is tested: the elastica of which the ends are at right angles to the force. It presses with `EI c²/2D²`, is bent by
+/// `c/D` at most, and its tip is `2D/c` beyond where it presses, `c = ∫₀^π √sin`.
+#[test]
+fn a_rod_folded_between_plates_is_an_elastica() {
+    const C: f64 = 2.396_280_469;
+    let found = folded();
+    let expected = [FOLDED * C * C / (2.0 * FOLD * FOLD), C / FOLD, 2.0 * FOLD / C];
+    println!("{found:.5?} for {expected:.5?}");
+    for k in 0..3 {
+        assert!((found[k] / expected[k] - 1.0).abs() < 0.01, "{found:?} for {expected:?}");
+    }
+}
