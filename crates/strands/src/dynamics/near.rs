@@ -1,6 +1,6 @@
 //! What may touch while frames stay near where they are: elements of rods, and they and pieces of obstacles.
 
-use super::pair::Pair;
+use super::pair::Sides;
 use super::passages::Inside;
 use crate::assembly::{Assembly, Member};
 use crate::contact::{Aabb, Ends, Kind, Nearest, Part, Toucher, Tree};
@@ -194,7 +194,7 @@ impl Neighbours {
             let beside = BETWEEN * piece.radius;
             near.out = own.any(|of| Piece::between(piece.along, of.along) < beside);
             if !near.out {
-                let sinks = |pair: Pair| near.out |= pair.gap(poses).is_some_and(|gap| gap <= 0.0);
+                let sinks = |pair: Sides| near.out |= pair.gap(poses).is_some_and(|gap| gap <= 0.0);
                 piece.pairs_with_wall(wall, sinks);
             }
         }
@@ -303,7 +303,7 @@ impl Neighbours {
     }
 
     /// Gives the pairs of what has come within range, and was not before, each with the radii's lesser and its rods and friction.
-    pub fn met(&mut self, poses: &[Pose], mut pair: impl FnMut(Pair, [Option<usize>; 2], Option<f64>)) {
+    pub fn met(&mut self, poses: &[Pose], mut pair: impl FnMut(Sides, [Option<usize>; 2], Option<f64>)) {
         self.take_middles(poses);
         let Self { pieces, walls, near, middles, .. } = self;
         for near in near.iter_mut().filter(|near| !near.met && !near.out) {
@@ -438,13 +438,13 @@ impl Piece {
         !tied.iter().any(beside)
     }
 
-    fn pair(&self, other: &Self) -> Pair {
+    fn pair(&self, other: &Self) -> Sides {
         let ([a, b], [c, d]) = (self.frames(), other.frames());
         let between = [self.itself(), other.itself()];
-        Pair::of_rods(between, [a, b, c, d], [self.radius, other.radius])
+        Sides::of_rods(between, [a, b, c, d], [self.radius, other.radius])
     }
 
-    fn pairs_with(&self, other: &Self, mut pair: impl FnMut(Pair)) {
+    fn pairs_with(&self, other: &Self, mut pair: impl FnMut(Sides)) {
         pair(self.pair(other));
         for (one, other) in [(self, other), (other, self)] {
             let enough = BETWEEN * one.radius.max(other.radius);
@@ -455,19 +455,19 @@ impl Piece {
                 }
                 let (frame, [c, d]) = (one.frame + node, other.frames());
                 let between = [one.node(node), other.itself()];
-                pair(Pair::of_rods(between, [frame, frame, c, d], [one.radius, other.radius]));
+                pair(Sides::of_rods(between, [frame, frame, c, d], [one.radius, other.radius]));
             }
         }
     }
 
-    fn pairs_with_wall(&self, wall: &Wall, mut pair: impl FnMut(Pair)) {
+    fn pairs_with_wall(&self, wall: &Wall, mut pair: impl FnMut(Sides)) {
         let Wall { toucher, frame, .. } = *wall;
         let mut with = |kind, own: Option<usize>, still: [Vec3; 3], radius| {
             let (between, frames) = match own {
                 Some(node) => ([self.node(node), toucher], [self.frame + node; 2]),
                 None => ([self.itself(), toucher], self.frames()),
             };
-            pair(Pair::with_wall(between, kind, frames, (frame, still), [self.radius, radius]));
+            pair(Sides::with_wall(between, kind, frames, (frame, still), [self.radius, radius]));
         };
         match wall.part {
             Part::Plane { point, normal } => {

@@ -32,9 +32,9 @@ const SAME_WAY: f64 = 0.9;
 /// A pair resists nothing where its stiffness is less than so much of what it has when it touches.
 const NONE: f64 = 1e-6;
 
-/// A pair that may touch.
-#[derive(Clone, Debug)]
-pub(super) struct Pair {
+/// The two sides of a pair that may touch.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Sides {
     pub between: [Toucher; 2],
     kind: Kind,
     /// The frames of its points, but of those that stand still.
@@ -43,6 +43,12 @@ pub(super) struct Pair {
     fixed: Ends,
     /// Less than nothing of a side that is around the other.
     radii: [f64; 2],
+}
+
+/// A pair that may touch, and what its sides exert on each other.
+#[derive(Clone, Debug)]
+pub(super) struct Pair {
+    pub sides: Sides,
     pub law: Law,
     pub known: Multipliers,
     /// Whether it slides freely as yet: nothing is known of its forces.
@@ -78,10 +84,10 @@ pub(super) struct Left {
     opposite: Option<(Response, f64)>,
 }
 
-impl Pair {
+impl Sides {
     /// Two pieces of rods, by their ends.
     pub fn of_rods(between: [Toucher; 2], frames: [usize; 4], radii: [f64; 2]) -> Self {
-        Self::new(between, Kind::Segments, frames.map(Some), [Vec3::ZERO; 4], radii)
+        Self { between, kind: Kind::Segments, frames: frames.map(Some), fixed: [Vec3::ZERO; 4], radii }
     }
 
     /// A piece of a rod, and one that stands still or moves with a frame.
@@ -98,45 +104,7 @@ impl Pair {
         } else {
             ([Some(a), Some(b), frame, frame], [Vec3::ZERO, Vec3::ZERO, c, d])
         };
-        Self::new(between, kind, frames, fixed, radii)
-    }
-
-    fn new(
-        between: [Toucher; 2],
-        kind: Kind,
-        frames: [Option<usize>; 4],
-        fixed: Ends,
-        radii: [f64; 2],
-    ) -> Self {
-        let (law, known) = (Law::new(0.0, 1.0, 1.0, (1.0, 1.0)), Multipliers::NONE);
-        Self {
-            between,
-            kind,
-            frames,
-            fixed,
-            radii,
-            law,
-            known,
-            is_new: true,
-            meets: None,
-            looked: None,
-            sticks: false,
-            opposite: None,
-        }
-    }
-
-    /// Gives it its laws, of a friction, a stiffness, N/m, and a rod's stiffness against bending, N·m².
-    pub fn with_law(mut self, friction: f64, stiffness: f64, bending: f64) -> Self {
-        let thin = self.thin();
-        let gives = (GIVES * thin, LOAD * bending / (thin * thin));
-        self.law = Law::new(friction, stiffness, SMOOTHING * stiffness * RESTS * thin, gives);
-        self
-    }
-
-    /// Takes what is known of its forces.
-    pub fn know(&mut self, known: Multipliers) {
-        self.law.slides_after(SLIDES * self.thin(), known.pressed);
-        (self.known, self.is_new) = (known, false);
+        Self { between, kind, frames, fixed, radii }
     }
 
     fn thickness(&self) -> f64 {
@@ -174,18 +142,51 @@ impl Pair {
         self.kind.meet(&self.points(poses)).map(|meeting| meeting.distance - self.thickness())
     }
 
+    /// How far two segments are from being beside each other: how far the ends of the shorter are across the longer. More than enough where one is a point.
+    fn crossing(&self, points: &Ends) -> f64 {
+        let (a, b) = (points[1] - points[0], points[3] - points[2]);
+        if a == Vec3::ZERO || b == Vec3::ZERO || self.kind.first_points() == 1 {
+            return f64::INFINITY;
+        }
+        a.cross(b).norm() / a.norm().max(b.norm())
+    }
+}
+
+impl Pair {
+    /// With its laws, of a friction, a stiffness, N/m, and a rod's stiffness against bending, N·m².
+    pub fn new(sides: Sides, friction: f64, stiffness: f64, bending: f64) -> Self {
+        let thin = sides.thin();
+        let gives = (GIVES * thin, LOAD * bending / (thin * thin));
+        Self {
+            sides,
+            law: Law::new(friction, stiffness, SMOOTHING * stiffness * RESTS * thin, gives),
+            known: Multipliers::NONE,
+            is_new: true,
+            meets: None,
+            looked: None,
+            sticks: false,
+            opposite: None,
+        }
+    }
+
+    /// Takes what is known of its forces.
+    pub fn know(&mut self, known: Multipliers) {
+        self.law.slides_after(SLIDES * self.sides.thin(), known.pressed);
+        (self.known, self.is_new) = (known, false);
+    }
+
     /// Finds where it meets. What pressed and does not meet any more leaves its forces.
     pub fn meet(&mut self, poses: &[Pose]) -> Option<Left> {
-        let points = self.points(poses);
-        let in_range = |meeting: &Meeting| meeting.distance - self.thickness() < RANGE * self.thin();
-        self.meets = self.kind.meet(&points).filter(in_range).map(|meeting| (meeting, points));
+        let points = self.sides.points(poses);
+        let in_range = |meeting: &Meeting| meeting.distance - self.sides.thickness() < RANGE * self.sides.thin();
+        self.meets = self.sides.kind.meet(&points).filter(in_range).map(|meeting| (meeting, points));
         if self.meets.is_some() {
             return None;
         }
         let (law, known, opposite) = (self.law, self.known, self.opposite.take());
         self.known = Multipliers::NONE;
         let looked = self.looked.take().filter(|_| known.pressed > 0.0)?;
-        Some(Left { between: self.between, law, known, is_new: self.is_new, looked, opposite })
+        Some(Left { between: self.sides.between, law, known, is_new: self.is_new, looked, opposite })
     }
 
     /// Whether it is where what slides from one face of an obstacle to the next goes on: it meets with about the same normal, and was not looked at yet.
@@ -193,8 +194,8 @@ impl Pair {
         let of = |between: &[Toucher; 2]| (between[0], between[1].obstacle());
         let along =
             |(meeting, _): &(Meeting, Ends)| meeting.normal.dot(left.looked.meeting.normal) > SAME_WAY;
-        self.kind == Kind::Face
-            && of(&self.between) == of(&left.between)
+        self.sides.kind == Kind::Face
+            && of(&self.sides.between) == of(&left.between)
             && self.looked.is_none()
             && self.meets.as_ref().is_some_and(along)
     }
@@ -209,27 +210,27 @@ impl Pair {
     /// Looks at it where it meets: adds what it exerts to what acts on the frames, and gives what its normal law is off by, m.
     pub fn look(&mut self, stage: &mut Stage, poses: &[Pose]) -> f64 {
         let Some((meeting, points)) = self.meets else { return 0.0 };
-        let (thickness, thin) = (self.thickness(), self.thin());
+        let (thickness, thin) = (self.sides.thickness(), self.sides.thin());
         let Meeting { weights, normal, distance, places, .. } = meeting;
         let mut gap = distance - thickness - RESTS * thin;
-        let crossing = self.crossing(&points) / (CROSSING * thickness.abs());
+        let crossing = self.sides.crossing(&points) / (CROSSING * thickness.abs());
         if crossing < 1.0 {
             gap += LET * thickness * (1.0 - crossing * crossing);
         }
-        let touched = [places[0] - normal * self.radii[0], places[1] + normal * self.radii[1]];
-        let arms: Ends = match self.kind {
+        let touched = [places[0] - normal * self.sides.radii[0], places[1] + normal * self.sides.radii[1]];
+        let arms: Ends = match self.sides.kind {
             Kind::Plane | Kind::Face => core::array::from_fn(|k| {
-                let side = self.side(k);
-                if side == 0 || self.frames[k].is_none() {
+                let side = self.sides.side(k);
+                if side == 0 || self.sides.frames[k].is_none() {
                     touched[side] - places[side]
                 } else {
                     touched[1] - points[k]
                 }
             }),
-            _ => core::array::from_fn(|k| touched[self.side(k)] - places[self.side(k)]),
+            _ => core::array::from_fn(|k| touched[self.sides.side(k)] - places[self.sides.side(k)]),
         };
         let mut velocity = Vec3::ZERO;
-        for (k, frame) in self.frames.iter().enumerate() {
+        for (k, frame) in self.sides.frames.iter().enumerate() {
             let Some(frame) = *frame else { continue };
             let (of, pose) = (stage.velocity(frame), &poses[frame]);
             let arm = arms[k] + (points[k] - pose.position);
@@ -246,7 +247,7 @@ impl Pair {
         if let Some((_, counts)) = &mut self.opposite {
             *counts *= 0.5;
         }
-        for (k, frame) in self.frames.iter().enumerate() {
+        for (k, frame) in self.sides.frames.iter().enumerate() {
             let Some(frame) = *frame else { continue };
             let force = response.force * weights[k];
             let arm = arms[k] + (points[k] - poses[frame].position);
@@ -258,15 +259,6 @@ impl Pair {
         off
     }
 
-    /// How far two segments are from being beside each other: how far the ends of the shorter are across the longer. More than enough where one is a point.
-    fn crossing(&self, points: &Ends) -> f64 {
-        let (a, b) = (points[1] - points[0], points[3] - points[2]);
-        if a == Vec3::ZERO || b == Vec3::ZERO || self.kind.first_points() == 1 {
-            return f64::INFINITY;
-        }
-        a.cross(b).norm() / a.norm().max(b.norm())
-    }
-
     /// Whether it presses and slides freely as yet.
     pub fn waits(&self) -> bool {
         self.is_new && self.known.pressed > FELT * self.law.smoothing
@@ -276,7 +268,7 @@ impl Pair {
     pub fn rub(&mut self) {
         if self.waits() {
             self.is_new = false;
-            self.law.slides_after(SLIDES * self.thin(), self.known.pressed);
+            self.law.slides_after(SLIDES * self.sides.thin(), self.known.pressed);
         }
     }
 
@@ -292,7 +284,7 @@ impl Pair {
 
     /// Whether it is so near that it may soon touch.
     pub fn is_near(&self) -> bool {
-        let near = |looked: &Looked| looked.meeting.distance - self.thickness() < NEAR * self.thin();
+        let near = |looked: &Looked| looked.meeting.distance - self.sides.thickness() < NEAR * self.sides.thin();
         self.looked.as_ref().is_some_and(near)
     }
 
@@ -304,14 +296,14 @@ impl Pair {
 
     /// Whether it is between frames that the linear system may not know to be beside each other.
     pub fn ties_frames(&self) -> bool {
-        self.frames[self.kind.first_points()].is_some()
+        self.sides.frames[self.sides.kind.first_points()].is_some()
     }
 
     /// The points that its force acts on, where it resists anything.
     fn ends(&self) -> Option<[Option<TouchEnd>; 4]> {
         let Looked { meeting, points, arms, .. } = self.looked.as_ref().filter(|_| self.resists())?;
         Some(core::array::from_fn(|k| {
-            let frame = self.frames[k]?;
+            let frame = self.sides.frames[k]?;
             let (weight, place) = (meeting.weights[k], points[k]);
             Some(TouchEnd { frame, weight, place, touches: place + arms[k] })
         }))
@@ -321,7 +313,7 @@ impl Pair {
     pub fn touch(&self) -> Option<Touch> {
         let ends = self.ends()?;
         let Looked { meeting, points, response, .. } = self.looked.as_ref()?;
-        let beside = 0.5 * CROSSING * self.thickness();
+        let beside = 0.5 * CROSSING * self.sides.thickness();
         let presses = self.known.pressed > 0.0;
         let curvature = presses.then(|| meeting.curvature(points, beside)).flatten();
         let (normal, friction) = (meeting.normal, response.friction);
@@ -340,8 +332,8 @@ impl Pair {
         // The places that touch go round as the normal turns: with friction, for what presses points through the axis.
         let turns = curvature.as_ref().map(|curvature| {
             core::array::from_fn(|k| {
-                let side = self.side(k);
-                let radius = if side == 0 { -self.radii[0] } else { self.radii[1] };
+                let side = self.sides.side(k);
+                let radius = if side == 0 { -self.sides.radii[0] } else { self.sides.radii[1] };
                 let arm = Mat3::hat(friction).scaled(meeting.weights[k] * radius);
                 let moment = (normal * radius).cross(friction);
                 core::array::from_fn(|l| {
@@ -354,9 +346,9 @@ impl Pair {
 
     /// What part of a step may be taken, by which the first side shifts so against the second, m, for the points that it acts on: round what is curved the normal turns as it slides.
     pub fn sliding_part(&self, shift_apart: impl Fn(&[Option<TouchEnd>; 4]) -> Vec3) -> f64 {
-        let Some(looked) = self.looked.filter(|_| self.kind != Kind::Plane) else { return 1.0 };
+        let Some(looked) = self.looked.filter(|_| self.sides.kind != Kind::Plane) else { return 1.0 };
         let Some(ends) = self.ends() else { return 1.0 };
-        let most = (SHIFTS * self.thin()).max(SHIFTS * looked.response.slip.norm());
+        let most = (SHIFTS * self.sides.thin()).max(SHIFTS * looked.response.slip.norm());
         most / shift_apart(&ends).norm().max(most)
     }
 
@@ -379,11 +371,11 @@ impl Pair {
         if self.known.pressed <= FELT * self.law.smoothing {
             return None;
         }
-        let Meeting { normal, distance, places, .. } = self.kind.meet(&self.points(poses))?;
-        let gap = distance - self.thickness();
-        let point = (places[0] - normal * self.radii[0] + places[1] + normal * self.radii[1]) * 0.5;
+        let Meeting { normal, distance, places, .. } = self.sides.kind.meet(&self.sides.points(poses))?;
+        let gap = distance - self.sides.thickness();
+        let point = (places[0] - normal * self.sides.radii[0] + places[1] + normal * self.sides.radii[1]) * 0.5;
         let friction = self.looked.map_or(self.known.anchor, |looked| looked.response.friction);
         let force = normal * self.known.pressed + friction;
-        Some(Contact { between: self.between, point, normal, gap, force })
+        Some(Contact { between: self.sides.between, point, normal, gap, force })
     }
 }

@@ -10,10 +10,10 @@ use strands::rod::{Kinematics, Material, Order, Profile, RestShape, Rod, RodDesc
 use strands::statics::{Problem, Support};
 
 const POST: f64 = 0.04;
-const RADIUS: f64 = 1e-4;
+const RADIUS: f64 = 5e-5;
 const PITCH: f64 = 2e-3;
 /// What pulls at the end that gives way, N.
-const PULL: f64 = 0.05;
+const PULL: f64 = 0.01;
 const STEP: f64 = 1e-3;
 
 /// The tension at the end that is drawn over the one at the other, where a rope slides around a post over some angle.
@@ -28,7 +28,7 @@ fn ratio(friction: f64, angle: f64, elements: usize) -> f64 {
         rotation: Mat3::from_cols(inwards, tangent.cross(inwards), tangent),
         position: Vec3::X * radius,
     };
-    let material = Material::from_poisson(1e9, 0.4, 1200.0).unwrap();
+    let material = Material::from_poisson(1.6e10, 0.4, 1200.0).unwrap();
     let section = Section::Circle { radius: RADIUS };
     let rod = Rod::with_elements(
         RodDescription {
@@ -71,7 +71,7 @@ fn ratio(friction: f64, angle: f64, elements: usize) -> f64 {
     // Drawn until all of it slides.
     let mut before = 0.0;
     for step in 1..3000 {
-        simulation.support_mut(last).unwrap().pose.position += along(angle) * (4e-3 * STEP);
+        simulation.support_mut(last).unwrap().pose.position += along(angle) * (8e-3 * STEP);
         simulation.step().unwrap_or_else(|failure| panic!("μ {friction}, {angle}: {failure}"));
         if step % 50 == 0 {
             let tension = simulation.reaction(last).linear.norm();
@@ -84,16 +84,17 @@ fn ratio(friction: f64, angle: f64, elements: usize) -> f64 {
     panic!("μ {friction}, {angle}: the tension still changes, {} times the pull", before / PULL);
 }
 
-/// Euler 1769, Eytelwein 1808: `e^{μφ}`, for a thin rope. Of this one friction acts a quarter of a hundredth nearer to the post's axis than tension does.
+/// Euler 1769, Eytelwein 1808: `e^{μφ}`, for a thin rope. Of this one friction acts an eighth of a hundredth nearer to the post's axis than tension does, and it touches over about an element less
+/// than the angle.
 #[test]
 fn a_rope_slides_around_a_post_as_eytelwein_says() {
     for friction in [0.1, 0.2, 0.3, 0.5] {
-        for (turns, elements) in [(0.25, 40), (0.5, 60), (1.0, 120)] {
+        for (turns, elements) in [(0.25, 40), (0.5, 60), (1.0, 120), (2.0, 240)] {
             let angle = 2.0 * PI * turns;
             let (found, expected) = (ratio(friction, angle, elements), (friction * angle).exp());
             println!("μ {friction}, {turns} turns: {found:.4} for {expected:.4}");
             assert!(
-                (found / expected - 1.0).abs() < 0.02,
+                (found / expected - 1.0).abs() < 0.015,
                 "μ {friction}, {turns} turns: {found} for {expected}"
             );
         }
