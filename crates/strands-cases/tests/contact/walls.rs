@@ -11,7 +11,8 @@ use strands::rod::Section;
 use strands::statics::{Problem, Support};
 
 fn smooth(problem: Problem, walls: &[Shape]) -> Assembly {
-    let obstacle = |shape: &Shape| Obstacle { shape: shape.clone(), friction: None, body: None, tissue: None };
+    let obstacle =
+        |shape: &Shape| Obstacle { shape: shape.clone(), friction: None, body: None, tissue: None };
     let obstacles = walls.iter().map(obstacle).collect();
     Assembly { surfaces: Some(Surfaces { friction: 0.0 }), obstacles, ..problem.into() }
 }

@@ -164,8 +164,8 @@ pub(crate) struct Held {
     pub slopes: [[Mat3; 3]; 3],
 }
 
-/// So often a stretch is made shorter to find how far a rod slides.
-const SHORTENED: usize = 100;
+/// So many secants at most find how far a rod slides.
+const SECANTS: usize = 60;
 
 impl Hold {
     /// How it holds a rod that was in it so far along, now that the hole is in a place.
@@ -184,26 +184,38 @@ impl Hold {
             } else {
                 (from.element, from.element.wrapping_sub(1))
             };
-            let mut to = Place::new(axis, from.element, axis.along[node]);
+            let to = Place::new(axis, from.element, axis.along[node]);
             if self.over(pull(&to), &to, way) <= 0.0 {
-                for _ in 0..SHORTENED {
-                    let middle = Place::new(axis, from.element, 0.5 * (from.at + to.at));
-                    if middle.at == from.at || middle.at == to.at {
-                        break;
-                    }
-                    if self.over(pull(&middle), &middle, way) > 0.0 {
-                        from = middle;
-                    } else {
-                        to = middle;
-                    }
-                }
-                return self.slides(axis, &to, pull(&to), way);
+                return self.slides_between(axis, hole, [&from, &to], way);
             }
             if next >= axis.elements() {
                 return self.ends(&to, pull(&to), way);
             }
             from = Place::new(axis, next, axis.along[node]);
         }
+    }
+
+    /// It slides to somewhere between two places of an element: found by secants, whose far end counts half as much each time it stays (the Illinois method).
+    fn slides_between(&self, axis: &Axis, hole: Vec3, [from, to]: [&Place; 2], way: f64) -> Held {
+        let pull = |place: &Place| (place.position - hole) * -self.stiffness;
+        let over = |place: &Place| self.over(pull(place), place, way);
+        let (mut ends, mut overs) = ([from.at, to.at], [over(from), over(to)]);
+        let mut last = None;
+        let mut place = Place::new(axis, from.element, to.at);
+        for _ in 0..SECANTS {
+            let at = ends[0] + (ends[1] - ends[0]) * (overs[0] / (overs[0] - overs[1]));
+            place = Place::new(axis, from.element, at);
+            let now = over(&place);
+            let side = usize::from(now <= 0.0);
+            if last == Some(side) {
+                overs[1 - side] *= 0.5;
+            }
+            if at == ends[0] || at == ends[1] || now == 0.0 {
+                break;
+            }
+            (ends[side], overs[side], last) = (at, now, Some(side));
+        }
+        self.slides(axis, &place, pull(&place), way)
     }
 
     /// By how much more than friction bears it is pulled along one way, N.

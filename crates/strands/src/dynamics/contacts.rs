@@ -55,13 +55,13 @@ impl Contacts {
     /// Takes pairs that have come within range.
     fn meet(&mut self, poses: &[Pose]) {
         let Self { neighbours, pairs, known, friction, stiffness, .. } = self;
-        neighbours.met(poses, |pair, rods, own_friction| {
+        neighbours.met(poses, |sides, rods, own_friction| {
             let softest = |of: fn(&[f64; 2]) -> f64| {
                 rods.iter().flatten().map(|rod| of(&stiffness[*rod])).fold(f64::INFINITY, f64::min)
             };
             let friction = own_friction.unwrap_or(*friction);
-            let mut pair = pair.with_law(friction, softest(|of| of[0]), softest(|of| of[1]));
-            if let Ok(at) = known.binary_search_by_key(&pair.between, |contact| contact.between) {
+            let mut pair = Pair::new(sides, friction, softest(|of| of[0]), softest(|of| of[1]));
+            if let Ok(at) = known.binary_search_by_key(&sides.between, |contact| contact.between) {
                 let Contact { force, normal, .. } = known[at];
                 let pressed = force.dot(normal);
                 pair.know(Multipliers { pressed, anchor: force - normal * pressed });
@@ -135,8 +135,8 @@ impl Contacts {
     /// The first of those that pass into each other, if any do.
     pub fn overlap(&mut self, poses: &[Pose]) -> Option<[Toucher; 2]> {
         self.meet(poses);
-        let overlaps = |pair: &&Pair| pair.gap(poses).is_some_and(|gap| gap <= 0.0);
-        self.pairs.iter().find(overlaps).map(|pair| pair.between)
+        let overlaps = |pair: &&Pair| pair.sides.gap(poses).is_some_and(|gap| gap <= 0.0);
+        self.pairs.iter().find(overlaps).map(|pair| pair.sides.between)
     }
 
     /// How fast energy goes by friction, and by what presses, W.
@@ -151,12 +151,12 @@ impl Contacts {
         network: &Network,
     ) -> Option<impl Iterator<Item = [Option<usize>; 4]>> {
         let ties = || self.pairs.iter().filter(|pair| pair.ties_frames());
-        let is_new = |pair: &Pair| pair.resists() && !network.joins(&pair.frames);
+        let is_new = |pair: &Pair| pair.resists() && !network.joins(&pair.sides.frames);
         let passages = || self.passages.ties(assembly);
         let any = ties().any(is_new) || passages().any(|frames| !network.joins(&frames));
         any.then(|| {
             let touching = ties().filter(|pair| pair.resists() || pair.is_near());
-            touching.map(|pair| pair.frames).chain(passages())
+            touching.map(|pair| pair.sides.frames).chain(passages())
         })
     }
 

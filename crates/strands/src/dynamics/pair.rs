@@ -178,7 +178,8 @@ impl Pair {
     /// Finds where it meets. What pressed and does not meet any more leaves its forces.
     pub fn meet(&mut self, poses: &[Pose]) -> Option<Left> {
         let points = self.sides.points(poses);
-        let in_range = |meeting: &Meeting| meeting.distance - self.sides.thickness() < RANGE * self.sides.thin();
+        let in_range =
+            |meeting: &Meeting| meeting.distance - self.sides.thickness() < RANGE * self.sides.thin();
         self.meets = self.sides.kind.meet(&points).filter(in_range).map(|meeting| (meeting, points));
         if self.meets.is_some() {
             return None;
@@ -284,7 +285,8 @@ impl Pair {
 
     /// Whether it is so near that it may soon touch.
     pub fn is_near(&self) -> bool {
-        let near = |looked: &Looked| looked.meeting.distance - self.sides.thickness() < NEAR * self.sides.thin();
+        let near =
+            |looked: &Looked| looked.meeting.distance - self.sides.thickness() < NEAR * self.sides.thin();
         self.looked.as_ref().is_some_and(near)
     }
 
@@ -373,7 +375,8 @@ impl Pair {
         }
         let Meeting { normal, distance, places, .. } = self.sides.kind.meet(&self.sides.points(poses))?;
         let gap = distance - self.sides.thickness();
-        let point = (places[0] - normal * self.sides.radii[0] + places[1] + normal * self.sides.radii[1]) * 0.5;
+        let point =
+            (places[0] - normal * self.sides.radii[0] + places[1] + normal * self.sides.radii[1]) * 0.5;
         let friction = self.looked.map_or(self.known.anchor, |looked| looked.response.friction);
         let force = normal * self.known.pressed + friction;
         Some(Contact { between: self.sides.between, point, normal, gap, force })
