@@ -210,3 +210,18 @@ fn a_tight_knot_does_not_creep_in_ten_seconds() {
     hold(false, 10.0);
     hold(true, 10.0);
 }
+
+/// In a square knot threads lie beside each other, pressed together hard.
+#[test]
+fn square_knots_hold_at_more_friction() {
+    for (friction, element, time_step) in [(0.3, 4.0, 1e-3), (0.4, 4.0, 2e-3), (0.5, 3.0, 1e-3)] {
+        let r = SUTURE.radius;
+        let lines = square(16.0 * r, 42e-3, r);
+        let mut knot = Knot::of(SUTURE, &lines, element * r, [Vec3::X, -Vec3::X]);
+        knot.assembly.surfaces = Some(Surfaces { friction });
+        let simulation = knot.pulled(Pull { far: 7e-3, fast: 0.1 }, time_step, 0.1);
+        let tension = knot.tensions(&simulation)[0];
+        println!("μ {friction}: {tension:.4} N");
+        assert!((6.0..7.5).contains(&tension), "μ {friction}: {tension}");
+    }
+}

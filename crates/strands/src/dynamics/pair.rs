@@ -16,9 +16,9 @@ const SMOOTHING: f64 = 1e-4;
 /// Surfaces touch where they press with more than so much of what the smoothing is, which they never do a radius apart.
 const FELT: f64 = 0.1;
 /// Elements that are beside each other touch at their nodes: a pair of them is let nearer by as much as this part of the thickness where the ends of neither are further across the
-/// other than so much of it.
+/// other than so much of it. That is more than nodes [give way](GIVES): else, where they bear much, the pair does too, in a place that jumps from one end to the other.
 const CROSSING: f64 = 0.1;
-const LET: f64 = 2.5e-3;
+const LET: f64 = 6e-3;
 /// On the way to a solution surfaces may pass into each other by so much of their radii, and so nothing passes through anything; where it is solved they are apart.
 const SINKS: f64 = 0.5;
 /// Surfaces are near where their gap is less than so much of the radius of the thinner one.
