@@ -31,15 +31,16 @@ pub(crate) struct Law {
     sticking: f64,
 }
 
-/// What is known of a contact where it is looked at: what presses it, N, and from where its friction is told, N.
+/// What is known of a contact where it is looked at: what presses it, N, from where its friction is told, N, and how much that bears at most, N, where it is told that too.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Multipliers {
     pub pressed: f64,
     pub anchor: Vec3,
+    pub bound: Option<f64>,
 }
 
 impl Multipliers {
-    pub const NONE: Self = Self { pressed: 0.0, anchor: Vec3::ZERO };
+    pub const NONE: Self = Self { pressed: 0.0, anchor: Vec3::ZERO, bound: None };
 }
 
 /// The force of a contact, and how it is to change: by so much at once, and by so much with a shift of one side against the other.
@@ -115,7 +116,9 @@ impl Law {
         }
         let slip = response.slip;
         let tried = across * known.anchor - slip * kappa;
-        let (size, bound) = (tried.norm(), friction * pressed.max(0.0));
+        // What is told does not follow what presses.
+        let follows = if known.bound.is_none() { friction } else { 0.0 };
+        let (size, bound) = (tried.norm(), known.bound.unwrap_or(friction * pressed.max(0.0)));
         if sticks || size <= bound {
             response.friction = tried;
             response.stiffness = response.stiffness + across.scaled(kappa);
@@ -124,7 +127,7 @@ impl Law {
             let way = tried * (1.0 / size);
             let other = normal.cross(way);
             response.friction = way * bound;
-            response.pull += way * (friction * pull);
+            response.pull += way * (follows * pull);
             // Where it slid the other way before, the answer is between: along the secant.
             let turned = before.filter(|(before, _)| before.friction.dot(way) < 0.0);
             let secant = turned.map_or(0.0, |(before, counts)| {
@@ -133,7 +136,7 @@ impl Law {
             });
             response.stiffness = response.stiffness
                 + Mat3::outer(way, way).scaled(secant)
-                + Mat3::outer(way, normal).scaled(friction * by_gap)
+                + Mat3::outer(way, normal).scaled(follows * by_gap)
                 + Mat3::outer(other, other).scaled(kappa * bound / size);
         }
         response.force += response.friction;

@@ -97,7 +97,7 @@ fn parallel_segments_touch_in_the_middle_of_where_they_are_beside_each_other() {
 #[test]
 fn what_sticks_and_what_slides() {
     let law = Law::new(0.5, 10.0, 1e-9, (1e-30, 1.0));
-    let pressed = Multipliers { pressed: 2.0, anchor: Vec3::new(0.3, 0.0, 0.0) };
+    let pressed = Multipliers { pressed: 2.0, anchor: Vec3::new(0.3, 0.0, 0.0), bound: None };
     let stuck = law.respond(&pressed, Vec3::Z, 0.0, Vec3::ZERO, None, false);
     assert!((stuck.force - Vec3::new(0.3, 0.0, 2.0)).norm() < 1e-12 && stuck.off < 1e-12, "{stuck:?}");
     // A slip along x is resisted by the whole of the friction that there may be.

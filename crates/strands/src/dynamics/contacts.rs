@@ -9,6 +9,9 @@ use crate::contact::{Contact, Multipliers, Passage, Toucher};
 use crate::math::Pose;
 use crate::statics::{Network, Touch};
 
+/// So many that begin to touch in a stage are many.
+const MANY: usize = 3;
+
 /// All pairs that are within range in a stage.
 #[derive(Clone, Debug, Default)]
 pub(super) struct Contacts {
@@ -22,6 +25,10 @@ pub(super) struct Contacts {
     /// The coefficient of friction where nothing else is said, and how stiff rods are against a push, N/m, and against bending, N·m².
     friction: f64,
     stiffness: Vec<[f64; 2]>,
+    /// Whether all slides freely at first, and friction is told what it bears.
+    careful: bool,
+    /// How many have begun to press in a stage's first iteration.
+    new: usize,
 }
 
 impl Contacts {
@@ -42,6 +49,7 @@ impl Contacts {
         self.neighbours.find(assembly, from, to);
         self.passages.begin(passages);
         self.neighbours.leave_out(&self.passages.inside(assembly), from);
+        self.new = 0;
         self.friction = friction;
         self.stiffness.clear();
         let strands = assembly.strands.iter();
@@ -54,7 +62,7 @@ impl Contacts {
 
     /// Takes pairs that have come within range.
     fn meet(&mut self, poses: &[Pose]) {
-        let Self { neighbours, pairs, known, friction, stiffness, .. } = self;
+        let Self { neighbours, pairs, known, friction, stiffness, careful, .. } = self;
         neighbours.met(poses, |sides, rods, own_friction| {
             let softest = |of: fn(&[f64; 2]) -> f64| {
                 rods.iter().flatten().map(|rod| of(&stiffness[*rod])).fold(f64::INFINITY, f64::min)
@@ -64,7 +72,7 @@ impl Contacts {
             if let Ok(at) = known.binary_search_by_key(&sides.between, |contact| contact.between) {
                 let Contact { force, normal, .. } = known[at];
                 let pressed = force.dot(normal);
-                pair.know(Multipliers { pressed, anchor: force - normal * pressed });
+                pair.know(Multipliers { pressed, anchor: force - normal * pressed, bound: None }, *careful);
             }
             pairs.push(pair);
         });
@@ -119,12 +127,45 @@ impl Contacts {
 
     /// Lets those rub.
     pub fn rub(&mut self) {
-        self.pairs.iter_mut().for_each(Pair::rub);
+        let careful = self.careful;
+        self.pairs.iter_mut().for_each(|pair| pair.rub(careful));
     }
 
-    /// Tells friction from where it is now.
+    /// Tells friction from where it is now, and what it bears where it is told that.
     pub fn anchor(&mut self) {
         self.pairs.iter_mut().for_each(Pair::anchor);
+    }
+
+    /// Begins anew with what touches: all slides freely until it is about known what presses, and friction is told what it bears until that changes little.
+    pub fn be_careful(&mut self, is: bool) {
+        self.careful = is;
+    }
+
+    /// Takes it that a stage's first iteration has been made.
+    pub fn count_new(&mut self) {
+        self.new = self.pairs.iter().filter(|pair| pair.waits()).count();
+    }
+
+    /// Whether many have begun to touch at once: then nothing is known of what rubs.
+    pub fn strike(&self) -> bool {
+        self.new >= MANY
+    }
+
+    /// Whether it still is told that.
+    pub fn is_careful(&self) -> bool {
+        self.careful
+    }
+
+    /// By how much what friction is told to bear is off, over all that presses.
+    pub fn misled(&self) -> f64 {
+        let pressed: f64 = self.pairs.iter().map(|pair| pair.known.pressed).sum();
+        self.pairs.iter().map(Pair::misled).fold(0.0, f64::max) / pressed.max(f64::MIN_POSITIVE)
+    }
+
+    /// Lets what friction bears follow what presses again.
+    pub fn follow_pressed(&mut self) {
+        self.pairs.iter_mut().for_each(|pair| pair.known.bound = None);
+        self.careful = false;
     }
 
     /// The pairs, for the linear system.

@@ -33,6 +33,8 @@ const SHORTENED: usize = 20;
 const PRESSES: f64 = 1e-2;
 /// Friction is told anew where no more than this is left over of all else.
 const ANCHORED: f64 = 1e-3;
+/// What friction bears is about known where it is off by no more than so much of all that presses.
+const MISLED: f64 = 1e-3;
 /// What can be cut is given up where so many iterations have left more than there was at first, or when friction was told anew.
 const SOON: usize = 8;
 /// So much of what surfaces allow is taken.
@@ -477,6 +479,20 @@ impl Simulation {
     }
 
     fn solve_group(&mut self, group: usize) -> Result<Taken, StepFailure> {
+        self.work.contacts.be_careful(false);
+        let solved = self.solve_group_once(group);
+        match solved {
+            Err(StepFailure::NotConverged { .. } | StepFailure::Singular { .. })
+                if self.work.contacts.strike() =>
+            {
+                self.work.contacts.be_careful(true);
+                self.solve_group_once(group).or(solved)
+            }
+            solved => solved,
+        }
+    }
+
+    fn solve_group_once(&mut self, group: usize) -> Result<Taken, StepFailure> {
         let Self { assembly, settings, state, work, .. } = self;
         let group = &mut work.groups[group];
         let (ties, stage, contacts, level) = (&work.ties, &mut work.stage, &mut work.contacts, work.level);
@@ -507,15 +523,31 @@ impl Simulation {
         let (mut slopes, mut before) = (Slopes::Anew, f64::INFINITY);
         let residual = loop {
             let mut residual = group.linearise(&given, stage, contacts, &mut work.poses, slopes);
+            if iterations == 1 {
+                contacts.count_new();
+            }
             let floor = group.round_off(assembly, |_| 1.0) * per_square;
             // What has come to touch rubs when it is about known what presses.
             if residual <= PRESSES && contacts.wait() {
                 contacts.rub();
                 residual = group.linearise(&given, stage, contacts, &mut work.poses, slopes);
             }
+            // What friction bears follows what presses again when it is about known.
+            if contacts.is_careful() && residual <= ANCHORED && !contacts.wait() {
+                if contacts.misled() <= MISLED {
+                    contacts.follow_pressed();
+                } else {
+                    contacts.anchor();
+                }
+                told = iterations;
+                residual = group.linearise(&given, stage, contacts, &mut work.poses, slopes);
+            }
             // What sticks is let slip a little; where all else is solved, friction is told anew, so that it slips less.
             let slips = contacts.slips() / assembly.size();
-            if slips > tolerance && residual <= ANCHORED.max(given.tolerance).max(floor) {
+            if !contacts.is_careful()
+                && slips > tolerance
+                && residual <= ANCHORED.max(given.tolerance).max(floor)
+            {
                 contacts.anchor();
                 told = iterations;
                 residual = group.linearise(&given, stage, contacts, &mut work.poses, slopes);
@@ -526,7 +558,7 @@ impl Simulation {
                 return Err(singular(&work.history));
             }
             let spent = iterations == settings.max_iterations;
-            let solved = residual <= given.tolerance.max(floor);
+            let solved = residual <= given.tolerance.max(floor) && !contacts.is_careful();
             if spent && (settings.bounded && residual <= USABLE || solved)
                 || solved && last && !settings.bounded
             {

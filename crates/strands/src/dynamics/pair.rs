@@ -170,9 +170,9 @@ impl Pair {
     }
 
     /// Takes what is known of its forces.
-    pub fn know(&mut self, known: Multipliers) {
+    pub fn know(&mut self, known: Multipliers, careful: bool) {
         self.law.slides_after(SLIDES * self.sides.thin(), known.pressed);
-        (self.known, self.is_new) = (known, false);
+        (self.known, self.is_new) = (known, careful);
     }
 
     /// Finds where it meets. What pressed and does not meet any more leaves its forces.
@@ -266,17 +266,28 @@ impl Pair {
     }
 
     /// Lets it rub, now that it is about known what presses.
-    pub fn rub(&mut self) {
+    pub fn rub(&mut self, careful: bool) {
         if self.waits() {
             self.is_new = false;
+            if careful {
+                self.known.bound = Some(self.law.friction * self.known.pressed);
+            }
             self.law.slides_after(SLIDES * self.sides.thin(), self.known.pressed);
         }
+    }
+
+    /// By how much what friction is told to bear is off, N.
+    pub fn misled(&self) -> f64 {
+        let off = |bound: f64| (bound - self.law.friction * self.known.pressed).abs();
+        self.known.bound.map_or(0.0, off)
     }
 
     /// Tells friction from where it is now.
     pub fn anchor(&mut self) {
         if let Some(looked) = &self.looked {
             self.known.anchor = looked.response.friction;
+            let bears = self.law.friction * self.known.pressed;
+            self.known.bound = self.known.bound.map(|_| bears);
             self.opposite = None;
             self.sticks = looked.response.slips > 0.0;
             self.law.sticks_more();
