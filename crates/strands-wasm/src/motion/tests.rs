@@ -302,7 +302,9 @@ radius = 0.2
 wire_radius = 0.05
 "#;
     let moving = Moving::open(&format!("{ROPE}{obstacles}"), "rope.toml").unwrap();
-    let [ball, cylinder, tube, block, ring] = moving.obstacles.as_array().unwrap().as_slice() else { panic!() };
+    let [ball, cylinder, tube, block, ring] = moving.obstacles.as_array().unwrap().as_slice() else {
+        panic!()
+    };
     let ends = [[0.0, 0.3, 0.0], [0.0, 0.3, 0.0]];
     assert_eq!(*ball, serde_json::json!({ "kind": "capsule", "ends": ends, "radius": 0.1 }));
     assert_eq!(cylinder["kind"], "cylinder");
