@@ -121,7 +121,7 @@ function setUp(first: Shape): void {
     square: rods.map(isRectangle),
     startIsHeld: rods.map((rod) => isHeld(rod, 'start', 0)),
     endIsHeld: rods.map((rod) => isHeld(rod, 'end', rod.length)),
-    tied: first.report.moves_only,
+    tied: first.report.moves_only && !(scene.contact && !scene.joints?.length),
     touches: Boolean(scene.contact),
     surgical: String(scene.name ?? '').includes('suture'),
     skin: rods.length >= MANY && String(scene.name ?? '').includes('hair'),

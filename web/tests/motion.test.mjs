@@ -205,7 +205,7 @@ test('rods that are tied open in motion, move, and have nothing else', async () 
   const first = await openMoving(page, 'willow')
   assert.equal(first.frames.length, 21)
   assert.ok(await page.locator('#motion').isDisabled())
-  assert.equal(await page.locator('#motion').getAttribute('title'), 'Rods that are tied move; they come to rest by themselves.')
+  assert.equal(await page.locator('#motion').getAttribute('title'), 'Rods that are tied or touch move; they come to rest by themselves.')
   await page.locator('#stage').focus()
   await page.keyboard.press('m')
   await done(page)
@@ -243,6 +243,27 @@ test('a net hangs, and what is pulled of it comes along', async () => {
   const rise = (rod, node) => place(lifted, rod, node)[2] - place(first, rod, node)[2]
   assert.ok(rise(grabbed.rod, grabbed.node) > 0.01, JSON.stringify(grabbed))
   assert.ok(apart(place(lifted, 1, 4), place(lifted, 5, 4)) < 1e-6, 'the knots hold')
+  assert.deepEqual(complaints, [])
+})
+
+test('a knot is pulled tight by one of its ends', async () => {
+  const { page, complaints } = await fresh()
+  const first = await openMoving(page, 'overhand_knot')
+  const [x, y] = await page.evaluate(() => window.strands.stage.nodeOnPage({ rod: 0, node: 100 }))
+  await page.mouse.move(x, y)
+  await page.mouse.down()
+  await done(page)
+  assert.ok((await state(page)).report.grabbed)
+  await page.locator('#stage').focus()
+  await page.keyboard.press(' ')
+  await page.mouse.move(x + 120, y, { steps: 5 })
+  await passes(page, 0.4)
+  const pulled = await state(page)
+  await page.screenshot({ path: `${out}knot.png` })
+  await page.mouse.up()
+  assert.ok(place(pulled, 0, 100)[0] > place(first, 0, 100)[0] + 0.01, 'the end comes along')
+  assert.ok(await page.evaluate(() => window.strands.stage.contacts.count.dots) > 2)
+  assert.equal(pulled.report.failure, null)
   assert.deepEqual(complaints, [])
 })
 
@@ -326,6 +347,7 @@ ${[
   'shape = "capsule"\nradius = 0.01\nlength = 0.05\nposition = [0.1, 0.1, 0.0]',
   'shape = "cylinder"\nradius = 0.01\nlength = 0.05\nposition = [-0.1, 0.0, 0.0]',
   'shape = "box"\nsize = [0.02, 0.04, 0.06]\nposition = [0.0, 0.1, 0.0]',
+  'shape = "ring"\nradius = 0.02\nwire_radius = 0.005\nposition = [-0.1, 0.1, 0.0]',
   'shape = "tube"\nradius = 0.3',
 ].map((lines) => `[[obstacles]]\n${lines}\n`).join('')}
 [dynamics]
@@ -344,13 +366,15 @@ test('obstacles of all shapes are drawn where they are, and tubes and surfaces a
     }),
   )
   const near = (a, b) => assert.ok(a.every((x, i) => Math.abs(x - b[i]) < 1e-4), `${a} is not ${b}`)
-  assert.deepEqual(drawn.map(({ kind }) => kind), ['SphereGeometry', 'CapsuleGeometry', 'CylinderGeometry', 'BufferGeometry', 'CylinderGeometry'])
-  assert.deepEqual(drawn.map(({ through }) => through), [false, false, false, true, true])
+  assert.deepEqual(drawn.map(({ kind }) => kind), ['SphereGeometry', 'CapsuleGeometry', 'CylinderGeometry', 'BufferGeometry', 'TorusGeometry', 'CylinderGeometry'])
+  assert.deepEqual(drawn.map(({ through }) => through), [false, false, false, true, false, true])
   near(drawn[1].at, [0.1, 0.1, 0])
   near(drawn[1].size, [0.02, 0.02, 0.07])
   near(drawn[2].size, [0.02, 0.02, 0.05])
   near(drawn[3].size, [0.02, 0.04, 0.06])
-  near(drawn[4].size, [0.6, 0.6, 0.23])
+  near(drawn[4].at, [-0.1, 0.1, 0])
+  near(drawn[4].size, [0.05, 0.05, 0.01])
+  near(drawn[5].size, [0.6, 0.6, 0.23])
   await page.screenshot({ path: `${out}obstacles.png` })
   assert.deepEqual(complaints, [])
 })

@@ -8,8 +8,9 @@ import { done, openPage, start } from './browser.mjs'
 const folder = fileURLToPath(new URL('../src/thumbnails/', import.meta.url))
 const readme = fileURLToPath(new URL('../../docs/page.png', import.meta.url))
 
-/** When a scene that moves has its picture taken, s. */
+/** When a scene that moves has its picture taken, s: soon, but for what takes its time. */
 const MOMENT = 0.32
+const LATER = { twisted_cord: 6, rope_pile: 0.5 }
 
 async function thumbnails(context, wanted) {
   await mkdir(folder, { recursive: true })
@@ -34,7 +35,7 @@ async function thumbnails(context, wanted) {
       stage.refresh()
       stage.frameAll()
       return stage.picture(224, 120)
-    }, MOMENT)
+    }, LATER[name] ?? MOMENT)
     await writeFile(`${folder}${name}.webp`, Buffer.from(data.split(',')[1], 'base64'))
   }
   await page.close()

@@ -89,7 +89,10 @@ fn a_table_says_how_it_went_and_files_are_written() {
 #[test]
 fn what_cannot_be_simulated_is_said() {
     for (set, said) in [
-        ("dynamics.start=\"there\"", "give \"equilibrium\", \"rest\" or the file of a saved state"),
+        (
+            "dynamics.start=\"there\"",
+            "give \"equilibrium\", \"rest\", \"initial\" or the file of a saved state",
+        ),
         ("dynamics.start=\"cantilever.toml\"", "not the state of a simulation"),
         (
             "dynamics={integrator=\"bdf2\", tolerance=1e-3}",

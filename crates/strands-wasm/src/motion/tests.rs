@@ -294,14 +294,25 @@ radius = 2.0
 shape = "box"
 position = [0.0, 0.0, -2.0]
 size = [0.1, 0.2, 0.4]
+
+[[obstacles]]
+shape = "ring"
+position = [0.0, 0.0, -3.0]
+radius = 0.2
+wire_radius = 0.05
 "#;
     let moving = Moving::open(&format!("{ROPE}{obstacles}"), "rope.toml").unwrap();
-    let [ball, cylinder, tube, block] = moving.obstacles.as_array().unwrap().as_slice() else { panic!() };
+    let [ball, cylinder, tube, block, ring] = moving.obstacles.as_array().unwrap().as_slice() else {
+        panic!()
+    };
     let ends = [[0.0, 0.3, 0.0], [0.0, 0.3, 0.0]];
     assert_eq!(*ball, serde_json::json!({ "kind": "capsule", "ends": ends, "radius": 0.1 }));
     assert_eq!(cylinder["kind"], "cylinder");
     assert_eq!(cylinder["ends"], serde_json::json!([[0.0, 0.0, -1.2], [0.0, 0.0, -0.8]]));
     assert_eq!((&tube["kind"], &tube["axis"]), (&"tube".into(), &serde_json::json!([0.0, 0.0, 1.0])));
+    let [middle, axis] = [[0.0, 0.0, -3.0], [0.0, 0.0, 1.0]];
+    let torus = serde_json::json!({ "kind": "ring", "point": middle, "axis": axis, "radius": 0.2, "wire_radius": 0.05 });
+    assert_eq!(*ring, torus);
     assert_eq!(block["kind"], "mesh");
     assert_eq!(block["corners"].as_array().unwrap().len(), 3 * 8);
     assert_eq!(block["triangles"].as_array().unwrap().len(), 3 * 12);

@@ -107,3 +107,20 @@ fn what_sticks_and_what_slides() {
     let apart = law.respond(&Multipliers { pressed: 0.0, ..pressed }, Vec3::Z, 0.3, Vec3::ZERO, None, false);
     assert!(apart.force == Vec3::ZERO && apart.pull.norm() < 1e-15 && apart.stiffness.max_abs() < 1e-15);
 }
+
+#[test]
+fn the_hole_of_a_ring_is_no_narrower_than_said() {
+    let (middle, axis) = (Vec3::new(0.1, -0.2, 0.3), Vec3::new(0.6, 0.0, 0.8));
+    let ring = super::Shape::Ring { middle, axis, radius: 5e-3, wire_radius: 1e-3 };
+    let (mut least, mut most) = (f64::INFINITY, 0.0_f64);
+    for part in ring.parts() {
+        let super::Part::Round { ends, radius, capped: true } = part else { panic!("{part:?}") };
+        for k in 0..=100 {
+            let away = ends[0] + (ends[1] - ends[0]) * (f64::from(k) / 100.0) - middle;
+            assert!(away.dot(axis).abs() < 1e-15);
+            least = least.min(away.norm() - radius);
+            most = most.max(away.norm() - radius);
+        }
+    }
+    assert!((least - 4e-3).abs() < 1e-15 && most < 4.05e-3, "{least} {most}");
+}
