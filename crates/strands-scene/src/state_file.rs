@@ -1,4 +1,4 @@
-//! States of simulations as files, from which they go on to the same bits.
+//! States of simulations as files, from which they go on to the same bits; where things touch, to round-off: in which order the linear system is solved depends on what touched before.
 
 use core::fmt;
 
@@ -291,10 +291,10 @@ fn passage_out(passage: &Passage) -> WrittenPassage {
     };
     let through = match passage.through {
         Through::Eyelet(eyelet) => WrittenThrough::Eyelet { eyelet },
-        Through::Into(obstacle, of, been_inside) => {
+        Through::Into { obstacle, end: of, been_inside } => {
             WrittenThrough::Into { obstacle, end: end(of), been_inside }
         }
-        Through::OutOf(obstacle, of) => WrittenThrough::OutOf { obstacle, end: end(of) },
+        Through::OutOf { obstacle, end: of } => WrittenThrough::OutOf { obstacle, end: end(of) },
     };
     let Passage { rod, at, place, body, force, .. } = *passage;
     WrittenPassage { through, rod, at, place: place.to_array(), body, force: force.to_array() }
@@ -308,9 +308,9 @@ fn passage_in(written: WrittenPassage) -> Passage {
     let through = match written.through {
         WrittenThrough::Eyelet { eyelet } => Through::Eyelet(eyelet),
         WrittenThrough::Into { obstacle, end: of, been_inside } => {
-            Through::Into(obstacle, end(of), been_inside)
+            Through::Into { obstacle, end: end(of), been_inside }
         }
-        WrittenThrough::OutOf { obstacle, end: of } => Through::OutOf(obstacle, end(of)),
+        WrittenThrough::OutOf { obstacle, end: of } => Through::OutOf { obstacle, end: end(of) },
     };
     let WrittenPassage { rod, at, place, body, force, .. } = written;
     Passage { through, rod, at, place: place.into(), body, force: force.into() }

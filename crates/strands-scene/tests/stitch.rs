@@ -25,8 +25,8 @@ fn a_stitch_of_three_passes_is_pulled_closed_and_holds() {
     let ways: Vec<(usize, bool)> = passages
         .iter()
         .map(|passage| match passage.through {
-            Through::Into(obstacle, ..) => (obstacle, true),
-            Through::OutOf(obstacle, _) => (obstacle, false),
+            Through::Into { obstacle, .. } => (obstacle, true),
+            Through::OutOf { obstacle, .. } => (obstacle, false),
             Through::Eyelet(_) => panic!("there is no eyelet"),
         })
         .collect();

@@ -45,6 +45,10 @@ fn body(context: &Context, path: &KeyPath, written: &BodyFile) -> Result<ModelBo
                 document.error(&path.key("tissue"), "a body without a shape has no surface to pierce");
             return Err(error.mend("give it a `shape` with a `density`, or remove `tissue`"));
         }
+        Some(_) if context.file.contact.is_none() => {
+            let error = document.error(&path.key("tissue"), "there is tissue, and nothing touches");
+            return Err(error.mend("add `[contact]`, with `friction = 0.3` or whatever it is"));
+        }
         written => written.as_ref().map(|written| passage::tissue(context, path, written)).transpose()?,
     };
     body.support = held.as_ref().map(|held| held.support(pose));

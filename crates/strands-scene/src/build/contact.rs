@@ -105,6 +105,10 @@ fn obstacle(context: &Context, path: &KeyPath, written: &ObstacleFile) -> Result
                 document.error(&path.key("tissue"), "rods are inside of a tube, and cannot pierce it");
             return Err(error.mend("remove it, or take a shape that rods are outside of"));
         }
+        Some(_) if matches!(&shape, Shape::Mesh(mesh) if !mesh.is_closed()) => {
+            let error = document.error(&path.key("tissue"), "the mesh is not closed, and has no inside");
+            return Err(error.mend("close it, or give the sheet a thickness"));
+        }
         written => written.as_ref().map(|written| passage::tissue(context, path, written)).transpose()?,
     };
     Ok(Obstacle { shape, friction, body: None, tissue })

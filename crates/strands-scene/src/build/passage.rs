@@ -41,16 +41,20 @@ fn eyelet(
         let error = document.error(&path.key("at"), "an eyelet at an end of a rod holds nothing");
         return Err(error.mend(format!("put it between 0 and {} m", of.length())));
     }
-    let place = match written.position {
-        Some(position) => Vec3::from(position),
-        None => {
-            let nodes = of.mesh().nodes();
-            let far = nodes.partition_point(|s| *s < at).clamp(1, nodes.len() - 1);
-            let part = (at - nodes[far - 1]) / (nodes[far] - nodes[far - 1]);
-            let [a, b] = [far - 1, far].map(|node| of.rest_poses()[node].position);
-            a + (b - a) * part
-        }
-    };
+    let element = of.length() / of.elements() as f64;
+    let nodes = of.mesh().nodes();
+    let far = nodes.partition_point(|s| *s < at).clamp(1, nodes.len() - 1);
+    let part = (at - nodes[far - 1]) / (nodes[far] - nodes[far - 1]);
+    let starts = model.rods[rod].starts();
+    let [a, b] = [far - 1, far].map(|node| starts[node].position);
+    let there = a + (b - a) * part;
+    let place = written.position.map_or(there, Vec3::from);
+    let apart = (place - there).norm();
+    if apart > element {
+        let message = format!("the eyelet is {apart:.2e} m from where the rod is {at} m from its start");
+        let error = document.error(&path.key("position"), message);
+        return Err(error.mend("put it there, change `at`, or leave `position` out"));
+    }
     let (body, place) = match &written.body {
         None => (None, place),
         Some(name) => {
@@ -66,7 +70,6 @@ fn eyelet(
             (Some(body), pose.rotation.transpose() * (place - pose.position))
         }
     };
-    let element = of.length() / of.elements() as f64;
     let bending = of.scale().moment * of.length();
     let stiffness = written.stiffness.unwrap_or(AS_AN_ELEMENT * bending / element.powi(3));
     let hold = hold(context, path, stiffness, (written.friction, written.grip))?;

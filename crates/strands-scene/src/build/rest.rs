@@ -140,7 +140,9 @@ pub(super) fn as_long(
     }
     let message = format!("the length is {length}, but the {shape} shape's points are {points} m long");
     let error = context.document.error(place, message);
-    Err(error.mend("leave `length` out: it follows from the points"))
+    Err(error.mend(
+        "leave `length` out: it follows from the points, which are as long in each shape that has them",
+    ))
 }
 
 fn sampled(

@@ -13,7 +13,7 @@ pub struct EyeletFile {
     pub rod: String,
     /// Where along it the eyelet is at first, m from its start.
     pub at: Place,
-    /// Where it is, m. Default: where the rod is there at rest.
+    /// Where it is, m, no further than an element from where the rod is there. Default: where the rod is there in its initial shape, or at rest where it has none.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub position: Option<[f64; 3]>,
     /// The body with which it moves. Default: it stands still.
@@ -30,13 +30,13 @@ pub struct EyeletFile {
     pub grip: Option<f64>,
 }
 
-/// Tissue: the ends of rods pierce it, and the holes hold what goes through them, each a point on springs. What is inside of it meets nothing but the holes.
+/// Tissue: the ends of rods pierce it, and the holes hold what goes through them, each a point on springs. What is inside of it meets nothing but the holes. Holes do not go over joints from one rod to the next.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields, expecting = "a table, as { pierced_by = 0.5, stiffness = 200.0 }")]
 pub struct TissueFile {
     /// The force with which an end pierces it, N. An end whose place is held goes in without more ado; coming out takes no force.
     pub pierced_by: f64,
-    /// How stiff the edge of a hole is, N/m.
+    /// How stiff the edge of a hole is, N/m: so much it gives way.
     pub stiffness: f64,
     /// The coefficient of friction in a hole, against what presses a rod to its side. Default that of `[contact]`.
     #[serde(default, skip_serializing_if = "Option::is_none")]

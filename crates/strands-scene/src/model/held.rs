@@ -4,8 +4,8 @@ use strands::assembly::{Keyframes, Member};
 use strands::math::{Mat3, Pose, Vec3};
 use strands::statics::Support;
 
-/// How a place of a rod is held, apart from any mesh, or a body. Targets that are not given are where the unloaded rod is, on whichever mesh, or the body
-/// at rest.
+/// How a place of a rod is held, apart from any mesh, or a body. Targets that are not given are where the rod is in its initial shape, or unloaded where
+/// it has none, on whichever mesh, or the body at rest.
 #[derive(Clone, Debug)]
 pub(crate) struct Held {
     /// Where along the rod, m; 0 for a body.

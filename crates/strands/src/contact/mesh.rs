@@ -1,7 +1,7 @@
 //! Surfaces of triangles.
 
 use crate::math::Vec3;
-use std::collections::BTreeMap;
+use std::collections::{BTreeMap, HashMap};
 use thiserror::Error;
 
 /// Two faces are as good as flat where the sine between their normals is less: their edge is none.
@@ -78,6 +78,19 @@ impl Mesh {
         let mut mesh = Self { corners: (0..8).map(corner).collect(), triangles, edges: Vec::new() };
         mesh.find_edges();
         mesh
+    }
+
+    /// Whether it is closed: as many triangles on one side of each edge as on the other, so that there is an inside. Corners in one place are one.
+    pub fn is_closed(&self) -> bool {
+        let key = |corner: usize| self.corners[corner].to_array().map(|x| (x + 0.0).to_bits());
+        let mut sides = HashMap::new();
+        for triangle in &self.triangles {
+            for k in 0..3 {
+                let [a, b] = [triangle[k], triangle[(k + 1) % 3]].map(key);
+                *sides.entry(if a < b { [a, b] } else { [b, a] }).or_insert(0_usize) += 1;
+            }
+        }
+        sides.values().all(|count| count % 2 == 0)
     }
 
     /// The corners, m.

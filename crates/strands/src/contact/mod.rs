@@ -21,7 +21,7 @@ pub(crate) use meeting::{Kind, Meeting};
 pub use mesh::{Mesh, MeshError};
 pub(crate) use obstacle::Part;
 pub use obstacle::{Obstacle, Shape};
-pub(crate) use passage::{Axis, Held};
+pub(crate) use passage::{Axis, Held, weights};
 pub use passage::{End, Eyelet, Hold, Passage, Through, Tissue};
 pub(crate) use tree::Tree;
 

@@ -35,7 +35,7 @@ pub struct Eyelet {
 /// What an obstacle is that the ends of rods pierce.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Tissue {
-    /// The force with which an end pierces it, N. An end that is held goes in without more ado, for what holds it exerts whatever is needed.
+    /// The force with which an end pierces it, N. An end whose place is held goes in without more ado, for what holds it exerts whatever is needed.
     pub pierced_by: f64,
     /// How the edges of the holes hold what has gone through.
     pub hold: Hold,
@@ -50,15 +50,44 @@ pub enum End {
     End,
 }
 
+impl End {
+    /// The other one.
+    pub fn other(self) -> Self {
+        if self == Self::Start { Self::End } else { Self::Start }
+    }
+}
+
 /// What a rod passes through.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Through {
     /// An eyelet.
     Eyelet(usize),
-    /// A hole through which an end has gone into an obstacle; whether it has been inside.
-    Into(usize, End, bool),
+    /// A hole through which an end has gone into an obstacle.
+    Into {
+        /// The obstacle.
+        obstacle: usize,
+        /// Which end.
+        end: End,
+        /// Whether it has been inside.
+        been_inside: bool,
+    },
     /// A hole through which it has come out again.
-    OutOf(usize, End),
+    OutOf {
+        /// The obstacle.
+        obstacle: usize,
+        /// Which end.
+        end: End,
+    },
+}
+
+impl Through {
+    /// The obstacle that a hole is in, and the end that has made it.
+    pub(crate) fn hole(&self) -> Option<(usize, End)> {
+        match *self {
+            Self::Eyelet(_) => None,
+            Self::Into { obstacle, end, .. } | Self::OutOf { obstacle, end } => Some((obstacle, end)),
+        }
+    }
 }
 
 /// A rod that passes through an eyelet or a hole.
@@ -117,8 +146,8 @@ struct Place {
     /// The direction in which it goes on there, which turns evenly from node to node, and how it changes with the part.
     tangent: Vec3,
     turns: Vec3,
-    /// How it turns with a shift of each node of the element, those beyond left where they are.
-    by_node: [Mat3; 2],
+    /// The size of the mean of the directions.
+    size: f64,
 }
 
 impl Place {
@@ -133,6 +162,12 @@ impl Place {
         let turn = (far - near) * (1.0 / size.max(f64::MIN_POSITIVE));
         let turns = turn - tangent * turn.dot(tangent);
         let position = axis.nodes[element].position + axis.chord(element) * part;
+        Self { at, element, part, position, tangent, turns, size }
+    }
+
+    /// How the tangent turns with a shift of each node of the element, those beyond left where they are.
+    fn by_node(&self, axis: &Axis) -> [Mat3; 2] {
+        let Self { element, part, tangent, size, .. } = *self;
         // A direction turns with its ends across itself, and the mean of those about a node is of half of each.
         let across = |of: Vec3| Mat3::IDENTITY - Mat3::outer(of, of);
         let ends = |element: usize, weight: f64| {
@@ -145,8 +180,7 @@ impl Place {
         let after = if element < last { ends(element + 1, 0.5 * part) } else { Mat3::ZERO };
         let first = if element == 0 { 0.5 * (1.0 - part) } else { 0.0 };
         let own = ends(element, 0.5 + first + if element == last { 0.5 * part } else { 0.0 });
-        let by_node = [before - own, own - after].map(|by| across(tangent) * by);
-        Self { at, element, part, position, tangent, turns, by_node }
+        [before - own, own - after].map(|by| across(tangent) * by)
     }
 }
 
@@ -189,7 +223,7 @@ impl Hold {
                 return self.slides_between(axis, hole, [&from, &to], way);
             }
             if next >= axis.elements() {
-                return self.ends(&to, pull(&to), way);
+                return self.ends(axis, &to, pull(&to), way);
             }
             from = Place::new(axis, next, axis.along[node]);
         }
@@ -243,7 +277,8 @@ impl Hold {
         let by_part = by_tangent.dot(turns) - self.stiffness * by_force.dot(chord);
         let weights = weights(part);
         let slid = weights.map(|weight| by_force * (weight * self.stiffness / by_part));
-        let slid = [0, 1, 2].map(|l| match place.by_node.get(l) {
+        let by_node = place.by_node(axis);
+        let slid = [0, 1, 2].map(|l| match by_node.get(l) {
             Some(by) => slid[l] - by.transpose() * by_tangent * (1.0 / by_part),
             None => slid[l],
         });
@@ -258,7 +293,7 @@ impl Hold {
     }
 
     /// At an end of the rod it cannot slide any further: along it bears no more than friction.
-    fn ends(&self, place: &Place, pull: Vec3, way: f64) -> Held {
+    fn ends(&self, axis: &Axis, place: &Place, pull: Vec3, way: f64) -> Held {
         let Place { at, element, part, tangent, .. } = *place;
         let along = pull.dot(tangent);
         let across = pull - tangent * along;
@@ -268,9 +303,10 @@ impl Hold {
         let weights = weights(part);
         let normal = Mat3::IDENTITY - Mat3::outer(tangent, tangent);
         let rubbed = Mat3::IDENTITY + Mat3::outer(tangent, side).scaled(way * self.friction);
+        let by_node = place.by_node(axis);
         let changed = |l: usize| {
             let shifted = normal.scaled(-self.stiffness * weights[l]);
-            let Some(turns) = place.by_node.get(l).copied() else { return rubbed * shifted };
+            let Some(turns) = by_node.get(l).copied() else { return rubbed * shifted };
             let turned = Mat3::outer(tangent, turns.transpose() * pull) + turns.scaled(along);
             rubbed * (shifted - turned) + turns.scaled(bound)
         };
@@ -280,7 +316,7 @@ impl Hold {
 }
 
 /// How much of a shift of what is held there is of each node of the element, and of the hole.
-fn weights(part: f64) -> [f64; 3] {
+pub(crate) fn weights(part: f64) -> [f64; 3] {
     [1.0 - part, part, -1.0]
 }
 

@@ -88,8 +88,8 @@ impl Contacts {
         self.neighbours.known_part(from, to)
     }
 
-    /// Finds anew what may touch, where a frame has gone far since it was found.
-    pub fn follow(&mut self, assembly: &Assembly, poses: &[Pose]) {
+    /// Finds anew what may touch, where a frame has gone far since it was found, in a stage that began elsewhere.
+    pub fn follow(&mut self, assembly: &Assembly, began: &[Pose], poses: &[Pose]) {
         if !self.neighbours.is_left(poses) {
             return;
         }
@@ -98,7 +98,7 @@ impl Contacts {
         self.known = known;
         self.pairs.clear();
         self.neighbours.find(assembly, poses, poses);
-        self.neighbours.leave_out(&self.passages.inside(assembly), poses);
+        self.neighbours.leave_out(&self.passages.inside(assembly), began);
     }
 
     /// Looks at all pairs: adds what they exert to what acts on the frames, and gives what their normal laws are off by, m.
@@ -136,7 +136,7 @@ impl Contacts {
         self.pairs.iter_mut().for_each(Pair::anchor);
     }
 
-    /// Begins anew with what touches: all slides freely until it is about known what presses, and friction is told what it bears until that changes little.
+    /// Whether stages begin so that all slides freely until it is about known what presses, and friction is told what it bears until that changes little.
     pub fn be_careful(&mut self, is: bool) {
         self.careful = is;
     }

@@ -149,6 +149,9 @@ pub enum SimulationError {
     /// Of what a rod is inside there is no surface to pierce.
     #[error("obstacle {0} is a bore, and tissue is what an end goes into: give it another shape")]
     BoreOfTissue(usize),
+    /// What an end goes into has an inside.
+    #[error("obstacle {0} is tissue, and its mesh is not closed: close it, or give the sheet a thickness")]
+    OpenTissue(usize),
     /// Surfaces pass into each other where all starts.
     #[error("where all starts {} passes into {}: put them apart", between[0], between[1])]
     Overlap {

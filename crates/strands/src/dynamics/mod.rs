@@ -20,6 +20,7 @@ mod newton;
 mod pair;
 mod passages;
 mod piece;
+mod pierce;
 mod stage;
 mod start;
 mod state;
@@ -147,6 +148,8 @@ struct Work {
     before: State,
     /// The frames of the stage.
     poses: Vec<Pose>,
+    /// The same as they were guessed, where surfaces touch.
+    guessed: Vec<Pose>,
     /// How long the step is, s.
     step: f64,
     /// Rates of the coordinates, and momenta of the stages before, of all frames one stage after the other.
@@ -204,6 +207,7 @@ impl Simulation {
             lengths,
             stage: Stage::default(),
             poses: assembly.rest_poses(),
+            guessed: Vec::new(),
             step: settings.time_step,
             coordinate_rates: Vec::new(),
             momentum_rates: Vec::new(),
@@ -226,7 +230,7 @@ impl Simulation {
     }
 
     /// The same, to change loads, drag and wind, or what is held, between steps: all at once, so rates of before are forgotten. The rods, their numbers of
-    /// nodes, their mass matrices, the bodies' inertia and the joints stay.
+    /// nodes, their mass matrices, the bodies' inertia, the joints, and the numbers of obstacles and eyelets stay.
     pub fn assembly_mut(&mut self) -> &mut Assembly {
         if matches!(self.state.past, Past::Rates { .. }) {
             self.state.past = Past::None;

@@ -13,6 +13,9 @@ pub(super) const RANGE: f64 = 0.3;
 /// Pieces of a rod may touch where more of it is between them than so many radii: it cannot bend back on itself in less.
 const BETWEEN: f64 = 3.5;
 
+/// So many radii from a hole a piece of a rod that has come out of it may still be sunk.
+const BESIDE: f64 = 20.0;
+
 /// An element of a rod.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Piece {
@@ -186,14 +189,11 @@ impl Neighbours {
             near.out = false;
             let (piece, Other::Wall(wall)) = (&pieces[near.piece as usize], near.other) else { continue };
             let wall = &walls[wall as usize];
-            let own = |of: &&Inside| of.rod == piece.rod && wall.toucher.obstacle() == Some(of.obstacle);
-            let mut own = inside.iter().filter(own).peekable();
-            if own.peek().is_none() {
-                continue;
-            }
+            let own = |of: &Inside| of.rod == piece.rod && wall.toucher.obstacle() == Some(of.obstacle);
             let beside = BETWEEN * piece.radius;
-            near.out = own.any(|of| Piece::between(piece.along, of.along) < beside);
-            if !near.out {
+            near.out = inside.iter().any(|of| own(of) && Piece::between(piece.along, of.along) < beside);
+            let near_by = |of: &Inside| Piece::between(piece.along, of.along) < BESIDE * piece.radius;
+            if !near.out && inside.iter().any(|of| own(of) && near_by(of)) {
                 let sinks = |pair: Sides| near.out |= pair.gap(poses).is_some_and(|gap| gap <= 0.0);
                 piece.pairs_with_wall(wall, sinks);
             }

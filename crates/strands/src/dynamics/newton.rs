@@ -479,17 +479,22 @@ impl Simulation {
     }
 
     fn solve_group(&mut self, group: usize) -> Result<Taken, StepFailure> {
-        self.work.contacts.be_careful(false);
-        let solved = self.solve_group_once(group);
-        match solved {
+        if self.assembly.surfaces.is_none() {
+            return self.solve_group_once(group);
+        }
+        self.work.guessed.clone_from(&self.work.poses);
+        let solved = match self.solve_group_once(group) {
             Err(StepFailure::NotConverged { .. } | StepFailure::Singular { .. })
                 if self.work.contacts.strike() =>
             {
+                self.work.poses.clone_from(&self.work.guessed);
                 self.work.contacts.be_careful(true);
-                self.solve_group_once(group).or(solved)
+                self.solve_group_once(group)
             }
             solved => solved,
-        }
+        };
+        self.work.contacts.be_careful(false);
+        solved
     }
 
     fn solve_group_once(&mut self, group: usize) -> Result<Taken, StepFailure> {
@@ -582,7 +587,7 @@ impl Simulation {
             }
             let size = group.step(assembly, ties, level, contacts, &mut work.poses);
             if assembly.surfaces.is_some() {
-                contacts.follow(assembly, &work.poses);
+                contacts.follow(assembly, &state.poses, &work.poses);
             }
             let near = size <= NEAR && group.keeps_slopes(stage);
             slopes = if near { Slopes::Kept } else { Slopes::Anew };

@@ -172,6 +172,7 @@ impl Simulation {
                 stage.add_history(a * h, coordinates, momenta, &strain_rates[of_elements]);
             }
             held.at(piece.begin + method.time(number) * piece.length, self);
+            self.pierce_by_hand();
             let Work { level, stage, coordinate_rates, poses, .. } = &mut self.work;
             match coordinate_rates.len().checked_sub(frames) {
                 None => stage.predict(&self.state.velocities, poses, *level),

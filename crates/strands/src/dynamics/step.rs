@@ -62,7 +62,6 @@ impl Simulation {
 
     fn whole_or_in_pieces(&mut self, held: &Held) -> Result<Step, StepFailure> {
         let (integrator, bounded) = (self.settings.integrator, self.settings.bounded);
-        self.pierce_by_hand();
         self.work.before.clone_from(&self.state);
         // Where surfaces touch, what does not come nearer to a solution soon is better cut.
         self.work.hasty = self.assembly.surfaces.is_some();

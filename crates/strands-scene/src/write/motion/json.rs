@@ -199,10 +199,12 @@ fn passage<'a>(model: &'a Model, frame: &Frame, passage: &Passage) -> PassageAns
     };
     let through = match passage.through {
         Through::Eyelet(eyelet) => ThroughAnswer::Eyelet { eyelet },
-        Through::Into(obstacle, ..) | Through::OutOf(obstacle, _) => match model.body_of_surface(obstacle) {
-            Some(body) => ThroughAnswer::Body { body: &body.name },
-            None => ThroughAnswer::Obstacle { obstacle },
-        },
+        Through::Into { obstacle, .. } | Through::OutOf { obstacle, .. } => {
+            match model.body_of_surface(obstacle) {
+                Some(body) => ThroughAnswer::Body { body: &body.name },
+                None => ThroughAnswer::Obstacle { obstacle },
+            }
+        }
     };
     let (point, force) = (point.to_array(), force.to_array());
     PassageAnswer { through, rod: &model.rods[rod].name, s: at, point, force }

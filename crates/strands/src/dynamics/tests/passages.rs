@@ -191,13 +191,36 @@ fn a_needle_pierces_tissue_with_enough_force_and_comes_out_on_the_other_side() {
     }
     let passages = &pierces.state().passages;
     let [into, out] = &passages[..] else { panic!("{passages:?}, tip {}", tip(&pierces)) };
-    assert_eq!(into.through, Through::Into(0, End::End, true));
-    assert_eq!(out.through, Through::OutOf(0, End::End));
+    assert_eq!(into.through, Through::Into { obstacle: 0, end: End::End, been_inside: true });
+    assert_eq!(out.through, Through::OutOf { obstacle: 0, end: End::End });
     assert!((into.place.z - radius).abs() < 0.02 * radius, "{:?}", into.place);
     assert!((out.place.z + 0.01).abs() < 1e-9, "{:?}", out.place);
     // Between the holes is as much of the needle as the block is high.
     let between = out.at - into.at;
     assert!((between - 0.01 - radius).abs() < 2.0 * 0.01 / 200.0, "{between}");
+}
+
+#[test]
+fn a_needle_is_drawn_right_through_tissue() {
+    let (problem, _) = needle();
+    let end = Support::pinned(problem.rod.rest_poses()[15]);
+    let problem = Problem { start: Support::free(problem.rod.rest_poses()[0]), end, ..problem };
+    let assembly = Assembly {
+        surfaces: Some(Surfaces { friction: 0.2 }),
+        obstacles: vec![tissue(5.0)],
+        ..problem.into()
+    };
+    let mut simulation = simulation(assembly, Settings { mass_damping: 50.0, ..EULER });
+    let held = Member::Node { rod: 0, node: 15 };
+    let mut most = 0;
+    for step in 0..600 {
+        simulation.support_mut(held).unwrap().pose.position.z -= 0.1e-3;
+        simulation.step().unwrap_or_else(|failure| panic!("step {step}: {failure}"));
+        most = most.max(simulation.state().passages.len());
+    }
+    let left = &simulation.state().passages;
+    assert!(most == 2 && left.is_empty(), "{most}, {left:?}");
+    assert!(simulation.state().poses.iter().all(|pose| pose.position.z < -0.01));
 }
 
 #[test]
