@@ -45,6 +45,8 @@ export interface Scenery {
   obstacles: ObstacleShape[]
   /** Nine numbers each: the point, the unit normal, the force, N. */
   contacts: Float64Array
+  /** Eyelets and holes, nine numbers each: where the rod is in it, the direction of the rod, the force on it, N. */
+  passages: Float64Array
   held: number
   report: MotionReport
 }
@@ -263,7 +265,7 @@ export class Stage {
     this.#connect(at, this.hand.position, grabbed !== null && at.distanceTo(this.hand.position) > 0.01 * this.size)
     const pull = grabbed ? [{ force: grabbed.force, moment: NOTHING }] : []
     this.#arrows.show(pull, this.view.arrows, this.size, [at])
-    this.contacts.show(moving.contacts, this.view.contacts, this.size, Math.max(this.#radius * this.view.displayScale, LEAST_DOT * this.size))
+    this.contacts.show(moving.contacts, moving.passages, this.view.contacts, this.size, Math.max(this.#radius * this.view.displayScale, LEAST_DOT * this.size))
     this.#glyphs.show(held, this.view, this.size)
     this.#dirty = true
   }
