@@ -1,13 +1,15 @@
 /**
- * Contacts: a dot where surfaces touch, and an arrow along the force there. All of them are three instanced meshes, whose buffers are written in place and
- * grow where there are more contacts than ever before.
+ * Contacts: a dot where surfaces touch, a ring around a rod where it passes through an eyelet or a hole, and an arrow along the force there. All of them are four
+ * instanced meshes, whose buffers are written in place and grow where there is more to show than ever before.
  */
 
 import * as THREE from 'three'
 import { head, HEAD, LONGEST, marked, shaft, THICK } from './arrows'
 
-/** How many numbers a contact has: its point, its normal, its force. */
+/** How many numbers a contact has: its point, its normal, its force; and a passage: its point, the rod's direction, its force. */
 const NUMBERS = 9
+/** The radii of a ring and of its wire, over that of a dot. */
+const RING = [1.6, 0.45] as const
 /** Room for so many at first. */
 const ROOM = 64
 /** An arrow is drawn from this part of the greatest force on. */
@@ -20,28 +22,31 @@ const EASE = 0.08
 export class Contacts {
   readonly group = new THREE.Group()
   #dots!: THREE.InstancedMesh
+  #rings!: THREE.InstancedMesh
   #shafts!: THREE.InstancedMesh
   #heads!: THREE.InstancedMesh
   #material = marked('force')
-  #geometries = [new THREE.SphereGeometry(1, 14, 10), shaft(), head()]
-  /** The force that the longest arrow stands for, N, and the contacts that it was found from. */
+  #geometries = [new THREE.SphereGeometry(1, 14, 10), new THREE.TorusGeometry(...RING, 10, 32), shaft(), head()]
+  /** The force that the longest arrow stands for, N, and the contacts that it was found with. */
   #most = 0
   #shown: Float64Array | null = null
   // Scratch.
   #matrix = new THREE.Matrix4()
   #point = new THREE.Vector3()
   #along = new THREE.Vector3()
+  #axis = new THREE.Vector3()
   #at = new THREE.Vector3()
   #turn = new THREE.Quaternion()
+  #across = new THREE.Quaternion()
   #scale = new THREE.Vector3()
 
   constructor() {
     this.#makeRoom(ROOM)
   }
 
-  /** How many contacts are drawn, and how many of them with an arrow. */
-  get count(): { dots: number; arrows: number } {
-    return this.group.visible ? { dots: this.#dots.count, arrows: this.#heads.count } : { dots: 0, arrows: 0 }
+  /** How many contacts and passages are drawn, and how many of them with an arrow. */
+  get count(): { dots: number; rings: number; arrows: number } {
+    return this.group.visible ? { dots: this.#dots.count, rings: this.#rings.count, arrows: this.#heads.count } : { dots: 0, rings: 0, arrows: 0 }
   }
 
   /** Forgets how great forces were. */
@@ -51,36 +56,46 @@ export class Contacts {
     this.group.visible = false
   }
 
-  /** Shows contacts in a scene of a size, nine numbers each, as dots of a radius. */
-  show(contacts: Float64Array, visible: boolean, size: number, radius: number): void {
-    const count = contacts.length / NUMBERS
-    this.group.visible = visible && count > 0
+  /** Shows contacts and passages in a scene of a size, nine numbers each, as dots of a radius and rings around it. */
+  show(contacts: Float64Array, passages: Float64Array, visible: boolean, size: number, radius: number): void {
+    const [dots, rings] = [contacts.length / NUMBERS, passages.length / NUMBERS]
+    this.group.visible = visible && dots + rings > 0
     if (!this.group.visible) return
-    if (count > this.#dots.instanceMatrix.count) this.#makeRoom(2 * count)
-    if (contacts !== this.#shown) this.#span(contacts, count)
+    if (dots + rings > this.#dots.instanceMatrix.count) this.#makeRoom(2 * (dots + rings))
+    if (contacts !== this.#shown) this.#span(contacts, passages)
     this.#shown = contacts
     let arrows = 0
-    for (let i = 0; i < count; i++) {
-      const part = this.#read(contacts, i) / this.#most
-      this.#put(this.#dots, i, 0, radius, radius)
+    for (let i = 0; i < dots + rings; i++) {
+      const touches = i < dots
+      const part = (touches ? this.#read(contacts, i) : this.#read(passages, i - dots)) / this.#most
+      if (touches) this.#put(this.#dots, i, 0, radius, radius)
+      else this.#ring(i - dots, passages, radius)
       if (part > LEAST) this.#arrow(arrows++, LONGEST * part * size, THINNER * THICK * size)
     }
-    this.#dots.count = count
+    this.#dots.count = dots
+    this.#rings.count = rings
     this.#shafts.count = this.#heads.count = arrows
-    for (const mesh of [this.#dots, this.#shafts, this.#heads]) mesh.instanceMatrix.needsUpdate = true
+    for (const mesh of [this.#dots, this.#rings, this.#shafts, this.#heads]) mesh.instanceMatrix.needsUpdate = true
   }
 
   /** The scale of the arrows follows greater forces at once, and smaller ones slowly. */
-  #span(contacts: Float64Array, count: number): void {
+  #span(...all: Float64Array[]): void {
     let most = 0
-    for (let i = 0; i < count; i++) most = Math.max(most, this.#read(contacts, i))
+    for (const of of all) for (let i = 0; i < of.length / NUMBERS; i++) most = Math.max(most, this.#read(of, i))
     this.#most = Math.max(most, this.#most + EASE * (most - this.#most))
   }
 
-  /** Reads where a contact is and where its force points to, and gives how great it is, N. */
-  #read(contacts: Float64Array, contact: number): number {
-    this.#point.fromArray(contacts, NUMBERS * contact)
-    this.#along.fromArray(contacts, NUMBERS * contact + 6)
+  /** Puts a ring where the rod is that goes through it. */
+  #ring(i: number, passages: Float64Array, radius: number): void {
+    this.#axis.fromArray(passages, NUMBERS * i + 3)
+    this.#across.setFromUnitVectors(UP, this.#axis)
+    this.#rings.setMatrixAt(i, this.#matrix.compose(this.#point, this.#across, this.#scale.setScalar(radius)))
+  }
+
+  /** Reads where one of many contacts or passages is and where its force points to, and gives how great it is, N. */
+  #read(all: Float64Array, one: number): number {
+    this.#point.fromArray(all, NUMBERS * one)
+    this.#along.fromArray(all, NUMBERS * one + 6)
     const force = this.#along.length()
     if (force > 0) this.#turn.setFromUnitVectors(UP, this.#along.divideScalar(force))
     return force
@@ -109,7 +124,7 @@ export class Contacts {
       mesh.frustumCulled = false
       return mesh
     })
-    ;[this.#dots, this.#shafts, this.#heads] = made
+    ;[this.#dots, this.#rings, this.#shafts, this.#heads] = made
     this.group.add(...made)
   }
 }

@@ -181,7 +181,7 @@ export class Inspector {
     this.#number('view', 'scale', 'Thickness', '×', 'How many times as thick as it is the thread is drawn.', (value) => this.edits.look({ displayScale: Math.max(value, 0.01) }))
     const glyphs: [keyof ViewOptions & string, string, string][] = [
       ['arrows', 'Forces', 'Forces (orange) and torques (violet) that hand and support exert on the thread.'],
-      ['contacts', 'Contacts', 'Where surfaces touch, and the forces there; between two threads, what the second exerts on the first.'],
+      ['contacts', 'Contacts', 'Where surfaces touch (dots) and what threads pass through (rings), and the forces there; between two threads, what the second exerts on the first.'],
       ['directors', 'Directors', 'The material frame along the thread: d1 red, d2 green, d3 blue.'],
       ['internalForce', 'Inner force', 'The force that the thread carries, along it.'],
       ['internalMoment', 'Inner moment', 'The moment that the thread carries, along it.'],

@@ -183,6 +183,7 @@ export class Motion {
       }
     })
     const bodies = { shapes: this.#bodies.map(({ shape }) => shape), frames: moved.bodies }
-    return { rods, bodies, obstacles: this.#obstacles, contacts: moved.contacts, held, report: moved.report }
+    const { contacts, passages, report } = moved
+    return { rods, bodies, obstacles: this.#obstacles, contacts, passages, held, report }
   }
 }

@@ -61,6 +61,7 @@ export class Mover {
       frames: this.#motion.frames(),
       bodies: this.#motion.bodies(),
       contacts: this.#motion.contacts(),
+      passages: this.#motion.passages(),
       strain: borne.subarray(0, 6 * elements),
       stress: borne.subarray(6 * elements, 12 * elements),
       energyDensity: borne.subarray(12 * elements),

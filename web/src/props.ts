@@ -112,6 +112,8 @@ export class Props {
   /** Marks what a hand has grabbed. */
   readonly hold = new THREE.Mesh(new THREE.SphereGeometry(1, 24, 16), new THREE.MeshStandardMaterial({ color: 0xd9480f, roughness: 0.4, transparent: true, opacity: 0.75 }))
   #root = new THREE.SphereGeometry(1, 12, 8)
+  #planted: THREE.InstancedMesh | null = null
+  #rootSize = 1
   #radius = 1
   #dark = new THREE.MeshStandardMaterial({ color: 0x5a6675, roughness: 0.45 })
   #parts = { needle: needle(), grip: grip(), tissue: tissue(), scalp: tissue(), clamp: clamp(this.#dark), stand: stand(this.#dark) }
@@ -156,13 +158,31 @@ export class Props {
   plant(starts: Float64Array[], skin: boolean): void {
     for (const old of this.roots.children) if (old instanceof THREE.InstancedMesh) old.dispose()
     this.roots.clear()
+    this.#planted = null
     if (starts.length === 0) return
-    const roots = new THREE.InstancedMesh(this.#root, this.#dark, starts.length)
-    const size = (skin ? 1.2 : 2) * this.#radius
-    starts.forEach((frames, i) => roots.setMatrixAt(i, new THREE.Matrix4().makeScale(size, size, size).setPosition(frames[9], frames[10], frames[11])))
-    this.roots.add(roots)
+    this.#planted = new THREE.InstancedMesh(this.#root, this.#dark, starts.length)
+    this.#planted.frustumCulled = false
+    this.#rootSize = (skin ? 1.2 : 2) * this.#radius
+    this.roots.add(this.#planted)
+    this.putRoots(starts)
     if (skin) this.roots.add(this.#under(starts))
     for (const part of this.roots.children) part.castShadow = part.receiveShadow = true
+  }
+
+  /** Puts the roots where what they hold has been led. */
+  putRoots(starts: Float64Array[]): void {
+    const [size, matrix] = [this.#rootSize, new THREE.Matrix4()]
+    starts.forEach((frames, i) => this.#planted?.setMatrixAt(i, matrix.makeScale(size, size, size).setPosition(frames[9], frames[10], frames[11])))
+    if (this.#planted) this.#planted.instanceMatrix.needsUpdate = true
+  }
+
+  /** Where they are. */
+  get rootsAt(): [number, number, number][] {
+    const matrix = new THREE.Matrix4()
+    return Array.from({ length: this.#planted?.count ?? 0 }, (_, i) => {
+      this.#planted!.getMatrixAt(i, matrix)
+      return new THREE.Vector3().setFromMatrixPosition(matrix).toArray()
+    })
   }
 
   /** A flat mound whose surface goes through the roots of threads and faces as they do. */

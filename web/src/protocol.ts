@@ -128,6 +128,8 @@ export interface Moved extends Carried {
   bodies: Float64Array
   /** What touches, nine numbers each: the point, the unit normal, the force, N. */
   contacts: Float64Array
+  /** What rods pass through, nine numbers each: where the rod is in it, the direction of the rod, the force on it, N. */
+  passages: Float64Array
   report: MotionReport
 }
 

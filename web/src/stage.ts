@@ -45,6 +45,8 @@ export interface Scenery {
   obstacles: ObstacleShape[]
   /** Nine numbers each: the point, the unit normal, the force, N. */
   contacts: Float64Array
+  /** Eyelets and holes, nine numbers each: where the rod is in it, the direction of the rod, the force on it, N. */
+  passages: Float64Array
   held: number
   report: MotionReport
 }
@@ -183,18 +185,25 @@ export class Stage {
 
   /** Chooses and fits the things beside the threads, that in the hand first. */
   #furnish(all: Strand[]): void {
-    const { square, startIsHeld, endIsHeld, tied, surgical, skin } = this.#setting
+    const { square, startIsHeld, endIsHeld, surgical, skin } = this.#setting
     const [held] = all
     this.tubes.setSections(square)
+    const { roots, bundle } = this.#rooted(all)
+    this.#props.choose(surgical, startIsHeld[0] && !bundle, this.#moving !== null && !endIsHeld[0])
+    this.#props.fit(this.size, this.#radius * this.view.displayScale, new THREE.Vector3().fromArray(held.frames, 9), this.#floor)
+    this.#props.plant(roots, skin)
+    this.#props.countClips(this.#clips.length)
+    this.gizmo.detach()
+  }
+
+  /** The frames where threads are held that get roots, and whether no clamp stands for the first. */
+  #rooted(all: Body[]): { roots: Float64Array[]; bundle: boolean } {
+    const { square, startIsHeld, endIsHeld, tied } = this.#setting
     const starts = all.filter((_, i) => startIsHeld[i]).map(({ frames }) => frames)
     const ends = all.filter((_, i) => tied && endIsHeld[i]).map(({ frames }) => frames.subarray(-12))
     // Where many things are held alike none of them gets a clamp.
     const bundle = tied ? starts.length + ends.length > 1 : square.length >= MANY
-    this.#props.choose(surgical, startIsHeld[0] && !bundle, this.#moving !== null && !endIsHeld[0])
-    this.#props.fit(this.size, this.#radius * this.view.displayScale, new THREE.Vector3().fromArray(held.frames, 9), this.#floor)
-    this.#props.plant([...(bundle || !startIsHeld[0] ? starts : starts.slice(1)), ...ends], skin)
-    this.#props.countClips(this.#clips.length)
-    this.gizmo.detach()
+    return { roots: [...(bundle || !startIsHeld[0] ? starts : starts.slice(1)), ...ends], bundle }
   }
 
   /** Prepares for the scene, whose shape at rest is given, to move: there is room for what swings. */
@@ -252,8 +261,10 @@ export class Stage {
   showMoving(moving: Scenery): void {
     this.#moving = moving
     const held = moving.rods[moving.held]
-    this.tubes.update(this.#ordered(moving), this.view, true)
+    const all = this.#ordered(moving)
+    this.tubes.update(all, this.view, true)
     this.#place(held)
+    this.#props.putRoots(this.#rooted(all).roots)
     this.solids.put(moving.bodies.frames)
     const { grabbed } = moving.report
     const at = new THREE.Vector3()
@@ -263,7 +274,7 @@ export class Stage {
     this.#connect(at, this.hand.position, grabbed !== null && at.distanceTo(this.hand.position) > 0.01 * this.size)
     const pull = grabbed ? [{ force: grabbed.force, moment: NOTHING }] : []
     this.#arrows.show(pull, this.view.arrows, this.size, [at])
-    this.contacts.show(moving.contacts, this.view.contacts, this.size, Math.max(this.#radius * this.view.displayScale, LEAST_DOT * this.size))
+    this.contacts.show(moving.contacts, moving.passages, this.view.contacts, this.size, Math.max(this.#radius * this.view.displayScale, LEAST_DOT * this.size))
     this.#glyphs.show(held, this.view, this.size)
     this.#dirty = true
   }
@@ -283,6 +294,11 @@ export class Stage {
     if (!visible) return
     this.#gap.geometry.setFromPoints([from, to])
     this.#gap.computeLineDistances()
+  }
+
+  /** Where the roots are that hold threads. */
+  get roots(): [number, number, number][] {
+    return this.#props.rootsAt
   }
 
   /** Whether a line leads from the thread's end to a hand that is elsewhere. */

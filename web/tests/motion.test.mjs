@@ -305,7 +305,7 @@ test('what falls on a floor touches it: the floor and the contacts are drawn, an
   await openText(page, 'strands on a floor', await readFile(FLOOR, 'utf8'))
   await page.locator('#rewind').click()
   await done(page)
-  assert.deepEqual(await drawn(), { dots: 0, arrows: 0, obstacles: ['PlaneGeometry'] })
+  assert.deepEqual(await drawn(), { dots: 0, rings: 0, arrows: 0, obstacles: ['PlaneGeometry'] })
   await page.locator('#play').click()
   await until(page, () => window.strands.stage.contacts.count.dots > 40)
   await page.locator('#play').click()
@@ -319,13 +319,45 @@ test('what falls on a floor touches it: the floor and the contacts are drawn, an
   await page.locator('summary', { hasText: 'View' }).click()
   assert.ok(await page.locator('#contacts').isChecked())
   await page.locator('#contacts').uncheck()
-  assert.deepEqual(await drawn(), { dots: 0, arrows: 0, obstacles: ['PlaneGeometry'] })
+  assert.deepEqual(await drawn(), { dots: 0, rings: 0, arrows: 0, obstacles: ['PlaneGeometry'] })
   await page.locator('#contacts').check()
   assert.deepEqual(await drawn(), touching)
   await openScene(page, 'suture')
-  assert.deepEqual(await drawn(), { dots: 0, arrows: 0, obstacles: [] })
+  assert.deepEqual(await drawn(), { dots: 0, rings: 0, arrows: 0, obstacles: [] })
   assert.ok(await page.locator('#contacts').isHidden())
   await page.locator('summary', { hasText: 'View' }).click()
+  assert.deepEqual(complaints, [])
+})
+
+test('a thread is led through tissue: a ring is drawn around it at every hole, and what leads it goes along', async () => {
+  const { page, complaints } = await fresh()
+  await openMoving(page, 'stitch')
+  const come = (time) =>
+    page.evaluate(async (time) => {
+      const { motion, stage } = window.strands
+      while (motion.report.time < time) {
+        motion.step()
+        await new Promise((resolve) => setTimeout(resolve, 2))
+      }
+      return { ...stage.contacts.count, passages: [...motion.scenery.passages], root: [...stage.roots[0]] }
+    }, time)
+  assert.equal((await come(0)).rings, 0)
+  // It has gone in at the top of the left edge, out at its side, and into the right edge.
+  const sewn = await come(0.45)
+  assert.equal(sewn.rings, 3)
+  assert.equal(sewn.passages.length, 27)
+  assert.ok(sewn.arrows > 0)
+  const { frames } = await state(page)
+  for (let i = 0; i < 3; i++) {
+    const [ring, direction] = [0, 3].map((from) => sewn.passages.slice(9 * i + from, 9 * i + from + 3))
+    const nearest = Math.min(...Array.from({ length: frames[0].length / 12 }, (_, node) => apart(place({ frames }, 0, node), ring)))
+    assert.ok(nearest < 1.1e-3, `a ring is ${nearest} m from the nearest node`)
+    assert.ok(Math.abs(Math.hypot(...direction) - 1) < 1e-9)
+  }
+  assert.ok(apart(sewn.root, place({ frames }, 0, 0)) < 1e-6, 'what holds the start is where that is')
+  await page.screenshot({ path: `${out}stitch.png` })
+  await openScene(page, 'suture')
+  assert.equal(await page.evaluate(() => window.strands.stage.contacts.count.rings), 0)
   assert.deepEqual(complaints, [])
 })
 

@@ -10,7 +10,7 @@ const readme = fileURLToPath(new URL('../../docs/page.png', import.meta.url))
 
 /** When a scene that moves has its picture taken, s: soon, but for what takes its time. */
 const MOMENT = 0.32
-const LATER = { twisted_cord: 6, rope_pile: 0.5 }
+const LATER = { twisted_cord: 6, rope_pile: 0.5, stitch: 3.2 }
 
 async function thumbnails(context, wanted) {
   await mkdir(folder, { recursive: true })

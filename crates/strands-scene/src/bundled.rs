@@ -41,6 +41,7 @@ const SCENES: &[Bundled] = &[
     scene!("capstan", "A rope around a post, held by friction"),
     scene!("rope_pile", "Ropes that fall onto each other"),
     scene!("twisted_cord", "A cord that is twisted until it coils up"),
+    scene!("stitch", "Two edges of tissue, sewn together"),
 ];
 
 /// All bundled scenes.

@@ -1,17 +1,12 @@
-//! The example of a stitch, with half of its elements and steps twice as long.
+//! The scene of a stitch, from the first pass to where it holds.
 
 use strands::contact::Through;
 use strands::dynamics::Start;
-use strands_scene::{Scene, SceneFile};
+use strands_scene::{Scene, bundled_scene};
 
 #[test]
 fn a_stitch_of_three_passes_is_pulled_closed_and_holds() {
-    let text = include_str!("../../../examples/stitch.toml");
-    let mut file = SceneFile::parse(text, "stitch.toml").unwrap();
-    file.rods["thread"].elements = Some(64);
-    let dynamics = file.dynamics.as_mut().unwrap();
-    dynamics.time_step = Some(2e-3);
-    let model = Scene::parse(&file.to_toml(), "stitch.toml", None).unwrap().model;
+    let model = Scene::parse(bundled_scene("stitch").unwrap().text, "stitch.toml", None).unwrap().model;
     let mut simulation = model.simulation(model.motion(), Start::Rest).unwrap();
     let first = simulation.assembly().first_body();
     let apart = |poses: &[strands::math::Pose]| poses[first + 1].position.x - poses[first].position.x;

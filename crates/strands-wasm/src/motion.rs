@@ -121,6 +121,12 @@ impl Motion {
         obstacles::flat(self.moving.rods.contacts())
     }
 
+    /// What rods pass through, eyelets and holes: nine numbers each, where the rod is in it (m) between the last two steps, to where its force has drawn the edge, the
+    /// unit direction of the rod there, and the force on the rod (N) in the last step.
+    pub fn passages(&self) -> Vec<f64> {
+        self.moving.shown_passages()
+    }
+
     /// What the elements of all rods bear, body frame: first their strains, six numbers each, then moments and forces, six numbers each, and last their
     /// elastic energy per length, J/m.
     pub fn borne(&self) -> Vec<f64> {
@@ -234,6 +240,10 @@ impl Moving {
 
     fn shown_bodies(&self) -> Vec<Pose> {
         self.rods.bodies_between(self.pace.part(self.rods.time_step()))
+    }
+
+    fn shown_passages(&self) -> Vec<f64> {
+        self.rods.rings(self.pace.part(self.rods.time_step()))
     }
 
     fn report(&self) -> String {

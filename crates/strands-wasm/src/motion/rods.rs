@@ -1,8 +1,9 @@
 //! The rods of a scene in motion: the one place that speaks to [`strands::dynamics`].
 
+use super::obstacles::ring;
 use std::slice::SliceIndex;
 use strands::assembly::{Member, Strand};
-use strands::contact::Contact;
+use strands::contact::{Contact, Passage};
 use strands::coupling::Grip;
 use strands::dynamics::{Budget, Settings, Simulation, Step};
 use strands::math::{Pose, Vec3, Wrench};
@@ -157,6 +158,20 @@ impl Rods {
     /// What touched in the last step.
     pub fn contacts(&self) -> &[Contact] {
         &self.simulation.state().contacts
+    }
+
+    /// What rods pass through since the last step, where they are so far on the way to now, as [`ring`] tells it.
+    pub fn rings(&self, part: f64) -> Vec<f64> {
+        let (assembly, passages) = (self.simulation.assembly(), &self.simulation.state().passages);
+        if passages.is_empty() {
+            return Vec::new();
+        }
+        let poses = self.between(part);
+        let of = |passage: &Passage| {
+            let along = assembly.strands[passage.rod].problem.rod.mesh().nodes();
+            ring(passage, &poses[assembly.nodes(passage.rod)], along)
+        };
+        passages.iter().flat_map(of).collect()
     }
 
     /// What all elements bear.

@@ -317,3 +317,19 @@ wire_radius = 0.05
     assert_eq!(block["corners"].as_array().unwrap().len(), 3 * 8);
     assert_eq!(block["triangles"].as_array().unwrap().len(), 3 * 12);
 }
+
+#[test]
+fn a_ring_is_drawn_where_an_eyelet_has_given_way() {
+    let eyelet = "\n[contact]\n\n[[eyelets]]\nrod = \"rope\"\nat = 0.25\nstiffness = 50.0\n";
+    let mut hung = Moving::open(&format!("{ROPE}{eyelet}"), "rope.toml").unwrap();
+    assert_eq!(hung.shown_passages()[..3], at(&hung, 10).to_array());
+    assert!(hung.advance(0.3, f64::INFINITY, still), "{}", hung.report());
+    hung.pace.stop();
+    let ring = hung.shown_passages();
+    let [point, direction, force] = [0, 3, 6].map(|i| Vec3::new(ring[i], ring[i + 1], ring[i + 2]));
+    assert_eq!(ring.len(), 9);
+    assert!((direction.norm() - 1.0).abs() < 1e-12);
+    assert!(force.z > 0.05, "{force:?} N bear a rope of 0.1 N");
+    let eyelet = point + force * (1.0 / 50.0);
+    assert!((eyelet - Vec3::new(0.25, 0.0, 0.0)).norm() < 1e-6, "{eyelet:?}");
+}
