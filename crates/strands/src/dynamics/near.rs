@@ -9,7 +9,7 @@ use crate::math::{Pose, Vec3};
 /// Frames may be so many radii from where they were.
 const REACH: f64 = 3.0;
 /// A pair exerts nothing where its gap is more than so many radii of the thinner one.
-pub(super) const RANGE: f64 = 0.3;
+pub(super) const RANGE: f64 = 1.0;
 /// Pieces of a rod may touch where more of it is between them than so many radii: it cannot bend back on itself in less.
 const BETWEEN: f64 = 3.5;
 
