@@ -5,9 +5,13 @@
 //! blocks of the rods' own systems go, as `Tᵀ K T`, into one sparse system of blocks of six. It is eliminated in an order in which each unknown has as few neighbours as
 //! possible when it is its turn (minimum degree): a tree from its leaves inwards, without a block more than it has.
 
+mod structure;
 mod touch;
+mod wide;
 
+use structure::Structure;
 pub(crate) use touch::{Touch, TouchEnd};
+use wide::Wide;
 
 use super::elimination::{
     SMALLEST_PIVOT, Square, add, block_from, on_far, pair, parts, product, seen_from_near, subtract,
@@ -18,9 +22,7 @@ use crate::assembly::{Assembly, Body, Member, Ties};
 use crate::math::{Kernel, Pose, SimdLevel, Vec3, Vec6, Wrench, dispatch, larger};
 use crate::statics::Support;
 use crate::statics::boundary::{displacements, displacements_slope};
-use core::cmp::Reverse;
 use core::ops::Range;
-use std::collections::BinaryHeap;
 
 const NONE: Square<f64> = [[0.0; 6]; 6];
 const IDENTITY: Square<f64> = {
@@ -32,39 +34,6 @@ const IDENTITY: Square<f64> = {
     }
     identity
 };
-
-/// Six rows of a block, each as wide as a register.
-#[repr(align(64))]
-#[derive(Clone, Copy, Debug)]
-struct Wide([[f64; 8]; 6]);
-
-impl Wide {
-    const NONE: Self = Self([[0.0; 8]; 6]);
-
-    #[inline(always)]
-    fn add(&mut self, block: &Square<f64>) {
-        for (row, block) in self.0.iter_mut().zip(block) {
-            row.iter_mut().zip(block).for_each(|(x, block)| *x += block);
-        }
-    }
-
-    /// Subtracts the product of two.
-    #[inline(always)]
-    fn subtract_product(&mut self, a: &Self, b: &Self) {
-        for (row, a) in self.0.iter_mut().zip(&a.0) {
-            for (c, x) in row.iter_mut().enumerate() {
-                let term = |k: usize| b.0[k][c] * a[k];
-                *x -= (term(0) + term(1)) + (term(2) + term(3)) + (term(4) + term(5));
-            }
-        }
-    }
-
-    /// Its six columns.
-    #[inline(always)]
-    fn square(&self) -> Square<f64> {
-        self.0.map(|[a, b, c, d, e, f, ..]| [a, b, c, d, e, f])
-    }
-}
 
 /// Where a body is, and what acts on it beside joints, in the network's axes; what the rods' [`Nodal`] is for their nodes.
 #[derive(Clone, Copy, Debug)]
@@ -123,106 +92,6 @@ pub(crate) struct Network {
     scale: Vec<f64>,
     free: Vec<FreeFrame>,
     free_steps: Vec<Vec6>,
-}
-
-/// Which unknown follows from which.
-#[derive(Clone, Debug, Default)]
-struct Structure {
-    /// The unknowns after each that stand in its equations when it is its turn: where those of one begin in the list of all. The block of the two has the same number.
-    begins: Vec<usize>,
-    after: Vec<usize>,
-    /// The same for each two of those, by their places in the list, and where the block of the first's row and the second's column is.
-    pair_begins: Vec<usize>,
-    pairs: Vec<[usize; 3]>,
-}
-
-impl Structure {
-    /// From the pairs of unknowns that stand in each other's equations, each once and both ways. Gives also the place of each unknown in the order.
-    fn new(unknowns: usize, edges: &[[usize; 2]]) -> (Self, Vec<usize>) {
-        let mut beside: Vec<Vec<usize>> = vec![Vec::new(); unknowns];
-        edges.iter().for_each(|[a, b]| beside[*a].push(*b));
-        let mut waiting: BinaryHeap<Reverse<(usize, usize)>> =
-            beside.iter().enumerate().map(|(unknown, beside)| Reverse((beside.len(), unknown))).collect();
-        let mut place = vec![usize::MAX; unknowns];
-        let mut order = Vec::with_capacity(unknowns);
-        let mut joined = Vec::new();
-        while let Some(Reverse((degree, unknown))) = waiting.pop() {
-            if place[unknown] != usize::MAX || degree != beside[unknown].len() {
-                continue;
-            }
-            place[unknown] = order.len();
-            order.push(unknown);
-            let left = core::mem::take(&mut beside[unknown]);
-            for &a in &left {
-                joined.clear();
-                merge(&beside[a], &left, |b| {
-                    if b != a && b != unknown {
-                        joined.push(b);
-                    }
-                });
-                beside[a].clone_from(&joined);
-                waiting.push(Reverse((joined.len(), a)));
-            }
-            beside[unknown] = left;
-        }
-        let mut structure = Self::default();
-        for unknown in &order {
-            structure.begins.push(structure.after.len());
-            let begin = structure.after.len();
-            structure.after.extend(beside[*unknown].iter().map(|unknown| place[*unknown]));
-            structure.after[begin..].sort_unstable();
-        }
-        structure.begins.push(structure.after.len());
-        for p in 0..unknowns {
-            structure.pair_begins.push(structure.pairs.len());
-            let of = structure.range(p);
-            for i in of.clone() {
-                // All that come after this one stand in its row too.
-                let row = structure.range(structure.after[i]);
-                let mut at = row.start;
-                for j in i + 1..of.end {
-                    while structure.after[at] != structure.after[j] {
-                        at += 1;
-                    }
-                    structure.pairs.push([i, j, at]);
-                }
-            }
-        }
-        structure.pair_begins.push(structure.pairs.len());
-        (structure, place)
-    }
-
-    /// Where in the list the unknowns after one are.
-    fn range(&self, unknown: usize) -> Range<usize> {
-        self.begins[unknown]..self.begins[unknown + 1]
-    }
-
-    /// The number of the block of two unknowns, if there is one.
-    fn find(&self, first: usize, second: usize) -> Option<usize> {
-        let range = self.range(first);
-        let at = self.after[range.clone()].binary_search(&second).ok()?;
-        Some(range.start + at)
-    }
-
-    fn block(&self, first: usize, second: usize) -> usize {
-        let block = self.find(first, second);
-        block.unwrap_or_else(|| unreachable!("every pair that is added was foreseen"))
-    }
-}
-
-/// All numbers of two sorted lists, each once.
-fn merge(a: &[usize], b: &[usize], mut take: impl FnMut(usize)) {
-    let (mut i, mut j) = (0, 0);
-    while i < a.len() || j < b.len() {
-        let next = match (a.get(i), b.get(j)) {
-            (Some(a), Some(b)) => *a.min(b),
-            (Some(a), None) | (None, Some(a)) => *a,
-            (None, None) => return,
-        };
-        i += usize::from(a.get(i) == Some(&next));
-        j += usize::from(b.get(j) == Some(&next));
-        take(next);
-    }
 }
 
 impl Network {
