@@ -1,9 +1,9 @@
 //! What the cases of contact are made of: round rods along a curve, and what is looked at independently of how contacts are found.
 
 use strands::assembly::Assembly;
-use strands::dynamics::{Integrator, Past, Power, Settings, Simulation, Start, State};
+use strands::dynamics::{Integrator, Settings, Simulation, Start, State};
 use strands::load::NodalLoads;
-use strands::math::{Mat3, Pose, Vec3, Vec6, Wrench};
+use strands::math::{Mat3, Pose, Vec3};
 use strands::rod::{
     Kinematics, Material, Mesh, Order, Profile, RestShape, Rod, RodDescription, Section, Station,
 };
@@ -100,21 +100,8 @@ impl Line {
 
 /// At rest in some frames, all rods one after the other.
 pub fn at_rest(assembly: &Assembly, poses: Vec<Pose>) -> State {
-    let (frames, elements) = (poses.len(), poses.len() - assembly.strands.len());
-    State {
-        time: 0.0,
-        poses,
-        velocities: vec![Vec6::ZERO; frames],
-        momenta: vec![Wrench::ZERO; frames],
-        wrenches: vec![Wrench::ZERO; elements],
-        dissipated: 0.0,
-        worked: 0.0,
-        power: Power::default(),
-        next_step: 1e-3,
-        past: Past::None,
-        contacts: Vec::new(),
-        passages: Vec::new(),
-    }
+    let simulation = Simulation::new(assembly.clone(), EULER, Start::Shape(poses)).unwrap();
+    simulation.state().clone()
 }
 
 /// How near the axes of elements come to each other, of one rod those that are more elements apart than so many, by alternating projections.

@@ -46,9 +46,8 @@ impl Contacts {
         of_rate: f64,
         (known, passages): (&[Contact], &[Passage]),
     ) {
-        self.neighbours.find(assembly, from, to);
         self.passages.begin(passages);
-        self.neighbours.leave_out(&self.passages.inside(assembly), from);
+        self.find(assembly, (from, to), from);
         self.new = 0;
         self.friction = friction;
         self.stiffness.clear();
@@ -97,7 +96,12 @@ impl Contacts {
         known.sort_by_key(|contact| contact.between);
         self.known = known;
         self.pairs.clear();
-        self.neighbours.find(assembly, poses, poses);
+        self.find(assembly, (poses, poses), began);
+    }
+
+    /// Finds what may touch while frames go from some places to others, but for what is inside of tissue, in a stage that began where they were.
+    fn find(&mut self, assembly: &Assembly, (from, to): (&[Pose], &[Pose]), began: &[Pose]) {
+        self.neighbours.find(assembly, from, to);
         self.neighbours.leave_out(&self.passages.inside(assembly), began);
     }
 
@@ -201,15 +205,15 @@ impl Contacts {
         })
     }
 
-    /// What part of the step that the linear system gives leaves what slides near to where it was linearised.
-    pub fn sliding_part(&self, network: &Network) -> f64 {
-        let part = |pair: &Pair| pair.sliding_part(|ends| network.shift_apart(ends));
-        self.pairs.iter().map(part).fold(1.0, f64::min)
+    /// Takes the step that the linear system gives. What part of it leaves what slides near to where it was linearised.
+    pub fn step(&mut self, network: &Network) -> f64 {
+        let part = |pair: &mut Pair| pair.step(|ends| network.shift_apart(ends));
+        self.pairs.iter_mut().map(part).fold(1.0, f64::min)
     }
 
-    /// Takes a part of the step that the linear system gives.
-    pub fn take(&mut self, network: &Network, part: f64) {
-        self.pairs.iter_mut().for_each(|pair| pair.take(part, |ends| network.shift_apart(ends)));
+    /// Goes a part of that step.
+    pub fn take(&mut self, part: f64) {
+        self.pairs.iter_mut().for_each(|pair| pair.take(part));
     }
 
     /// What touches, with its forces, by what it is between.

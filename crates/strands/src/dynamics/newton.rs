@@ -324,7 +324,7 @@ impl Group {
             return size;
         }
         if let Some(network) = &self.network {
-            part = part.min(contacts.sliding_part(network));
+            part = part.min(contacts.step(network));
         }
         let before: Vec<Pose> = poses.to_vec();
         let records: Vec<Record> = self.rods.iter().map(|system| system.record.clone()).collect();
@@ -340,9 +340,7 @@ impl Group {
                 system.record.clone_from(record);
             }
         }
-        if let Some(network) = &self.network {
-            contacts.take(network, part);
-        }
+        contacts.take(part);
         size
     }
 

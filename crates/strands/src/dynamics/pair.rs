@@ -56,6 +56,8 @@ pub(super) struct Pair {
     /// Where it meets, if it is in range, and how it was looked at there last.
     meets: Option<(Meeting, Ends)>,
     pub looked: Option<Looked>,
+    /// How the first side shifts against the second in the step that the linear system gave last, m.
+    shift: Vec3,
     /// Whether it sticks where it is looked at next, however great its friction is there.
     sticks: bool,
     /// How it responded where it last slid the other way, and how much that still counts: half as much each time (the Illinois method).
@@ -164,6 +166,7 @@ impl Pair {
             is_new: true,
             meets: None,
             looked: None,
+            shift: Vec3::ZERO,
             sticks: false,
             opposite: None,
         }
@@ -357,20 +360,21 @@ impl Pair {
         Some(Touch { ends, pull: response.pull, stiffness: response.stiffness, bends, turns })
     }
 
-    /// What part of a step may be taken, by which the first side shifts so against the second, m, for the points that it acts on: round what is curved the normal turns as it slides.
-    pub fn sliding_part(&self, shift_apart: impl Fn(&[Option<TouchEnd>; 4]) -> Vec3) -> f64 {
+    /// Takes it how the first side shifts against the second, m, for the points that it acts on, in the step that the linear system gives. What part of that may be taken: round what
+    /// is curved the normal turns as it slides.
+    pub fn step(&mut self, shift_apart: impl Fn(&[Option<TouchEnd>; 4]) -> Vec3) -> f64 {
+        self.shift = self.ends().map_or(Vec3::ZERO, |ends| shift_apart(&ends));
         let Some(looked) = self.looked.filter(|_| self.sides.kind != Kind::Plane) else { return 1.0 };
-        let Some(ends) = self.ends() else { return 1.0 };
-        let most = (SHIFTS * self.sides.thin()).max(SHIFTS * looked.response.slip.norm());
-        most / shift_apart(&ends).norm().max(most)
+        let most = SHIFTS * self.sides.thin().max(looked.response.slip.norm());
+        most / self.shift.norm().max(most)
     }
 
-    /// Takes a part of what the linear system gives: how the first side shifts against the second, m, for the points that it acts on.
-    pub fn take(&mut self, part: f64, shift_apart: impl Fn(&[Option<TouchEnd>; 4]) -> Vec3) {
+    /// Takes a part of that step.
+    pub fn take(&mut self, part: f64) {
         let Some(Looked { meeting, response: Response { pull, stiffness, .. }, .. }) = self.looked else {
             return;
         };
-        let resisted = self.ends().map_or(Vec3::ZERO, |ends| stiffness * shift_apart(&ends));
+        let resisted = stiffness * self.shift;
         self.known.pressed = (self.known.pressed + part * (pull - resisted).dot(meeting.normal)).max(0.0);
     }
 

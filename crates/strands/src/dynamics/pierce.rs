@@ -136,6 +136,9 @@ impl Simulation {
         for (tip, obstacle, _) in self.tips() {
             let support = self.assembly.support(Member::Node { rod: tip.rod, node: tip.node });
             let Some(support) = support.filter(|support| support.fixed[3..] == [true; 3]) else { continue };
+            if tip.entry(&self.state.passages, obstacle).is_some() {
+                continue;
+            }
             let (from, to) = (self.state.poses[tip.frame].position, support.pose.position);
             let now = Seen::new(&self.assembly, obstacle, &self.state.poses);
             let before = now.distance(from);
@@ -143,7 +146,7 @@ impl Simulation {
             let after = led.distance(to);
             // Beside it, it may go on.
             let goes_in = after < TOUCHES * tip.radius && after < before && before >= 0.0;
-            if !goes_in || tip.entry(&self.state.passages, obstacle).is_some() {
+            if !goes_in {
                 continue;
             }
             let place = if after < 0.0 { from + (to - from) * led.crossing(from, to) } else { to };

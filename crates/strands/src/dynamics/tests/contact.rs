@@ -5,7 +5,7 @@ use crate::assembly::{Assembly, Member, Strand};
 use crate::contact::{Obstacle, Shape, Surfaces};
 use crate::dynamics::{Integrator, Settings, Simulation, SimulationError, Start, State};
 use crate::load::NodalLoads;
-use crate::math::{Mat3, Pose, Quat, Vec3, Wrench};
+use crate::math::{Mat3, Pose, Quat, Vec3};
 use crate::rod::{Kinematics, Material, Order, Rod};
 use crate::statics::{Problem, Support};
 
@@ -223,8 +223,7 @@ fn knotted(elements: usize) -> (Problem, State) {
     let rod = free(suture(elements), poses[0], Vec3::ZERO);
     let problem =
         Problem { start: Support::clamped(poses[0]), end: Support::clamped(poses[elements]), ..rod };
-    let mut state = State::at_rest(&problem.clone().into(), poses, EULER.time_step);
-    state.wrenches.fill(Wrench::ZERO);
+    let state = State::at_rest(&problem.clone().into(), poses, EULER.time_step);
     (problem, state)
 }
 
